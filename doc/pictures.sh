@@ -2,7 +2,7 @@
 # Makes the pictures of the pages again, and puts them into doc/images as PNG and, but for maps, as SVG: doc/pictures.sh NAME...
 #   setup           setup.png from setup.svg, which is drawn by hand; needs rsvg-convert (Debian: librsvg2-bin)
 #   first           data_set_1: the curve of the first run with maps of phi (some seconds)
-#   geometry        the sketches geometry, cell and towing
+#   geometry        the sketches and the friction law of doc/explanation
 #   half_bonded     torque and phi_0 of half-bonded coins (ten seconds)
 #   film            front.webm and front_film.png (half a minute); needs NumPy, Matplotlib and ffmpeg
 #   report          the page of a run, seen by chromium; needs ImageMagick
@@ -126,8 +126,8 @@ make_pictures() {
       cp output/calibrate/data_set_1/fit.png doc/images/calibration_data_set_1.png
       ;;
     geometry)
-      gnuplot doc/geometry.gp && gnuplot doc/towing.gp && gnuplot doc/cell.gp
-      publish output/geometry output/towing output/cell
+      gnuplot doc/geometry.gp && gnuplot doc/towing.gp && gnuplot doc/cell.gp && gnuplot doc/law.gp
+      publish output/geometry output/towing output/cell output/law
       ;;
     bodies) bodies ;;
     paper) doc/paper/reproduce.sh $figures && publish_figures $figures ;;

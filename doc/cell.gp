@@ -1,4 +1,4 @@
-# Sketch of an enriched cell for doc/model.md, output/cell.png and cell.svg. At the top of the project:
+# Sketch of an enriched cell for doc/explanation/contact.md, output/cell.png and cell.svg. At the top of the project:
 #   gnuplot doc/cell.gp
 azimuth = 28 * pi / 180; elevation = 24 * pi / 180
 px(x, y, z) = x * cos(azimuth) + y * sin(azimuth)
@@ -46,10 +46,10 @@ do for [format in "png svg"] {
     for [i=0:2] [j=0:2:1] '+' using (control_x(i, int($1 + 0.5))):(control_y(i, int($1 + 0.5))) with lines \
       linewidth 1 dashtype 2 linecolor rgb blue notitle, \
     [k=0:8:1] '+' using (control_x(int($1 + 0.5) % 3, int($1 + 0.5) / 3)):(control_y(int($1 + 0.5) % 3, int($1 + 0.5) / 3)) \
-      with points pointtype 7 pointsize 1.4 linecolor rgb blue title "control points {/:Bold x}_{/:Italic A} of the face", \
+      with points pointtype 7 pointsize (1.4 * point) linecolor rgb blue title "control points {/:Bold x}_{/:Italic A} of the face", \
     [k=0:3:1] '+' using (px(int($1 + 0.5) % 2, int($1 + 0.5) / 2, bottom)):(py(int($1 + 0.5) % 2, int($1 + 0.5) / 2, bottom)) \
-      with points pointtype 5 pointsize 1.4 linecolor rgb red title "nodes {/:Bold x}_{/:Italic a} of FE\\_Q that stay", \
+      with points pointtype 5 pointsize (1.4 * point) linecolor rgb red title "nodes {/:Bold x}_{/:Italic a} of FE\\_Q that stay", \
     [k=0:3:1] '+' using (X(int($1 + 0.5) % 2, int($1 + 0.5) / 2)):(Y(int($1 + 0.5) % 2, int($1 + 0.5) / 2)) \
-      with points pointtype 64 pointsize 1.6 linecolor rgb red title "nodes that follow the control points"
+      with points pointtype 64 pointsize (1.6 * point) linecolor rgb red title "nodes that follow the control points"
 }
 unset output

@@ -1,30 +1,42 @@
 #!/usr/bin/env bash
 # Makes the pictures of the pages again, and puts them into doc/images as PNG and, but for maps, as SVG: doc/pictures.sh NAME...
+#   setup           setup.png from setup.svg, which is drawn by hand; needs rsvg-convert (Debian: librsvg2-bin)
+#   first           data_set_1: the curve of the first run with maps of phi (some seconds)
 #   geometry        the sketches and the friction law of doc/explanation
-#   bodies          mesh, fronts and stresses (a minute); needs pvpython, see doc/results.md
-#   paper           the figures of doc/reproduction.md (ten minutes, most of them Fig. 13); fig_1, fig_4, ... alone: see
+#   half_bonded     torque and phi_0 of half-bonded coins (ten seconds)
+#   film            front.webm and front_film.png (half a minute); needs NumPy, Matplotlib and ffmpeg
+#   report          the page of a run, seen by chromium; needs ImageMagick
+#   tutorial_fit    the fit of the tutorial (ten seconds)
+#   bodies          mesh, fronts and stresses (two minutes); needs pvpython, see doc/howto/paraview.md
+#   paper           the figures of doc/evidence/reproduction.md (three minutes); fig_1, fig_4, ... alone: see
 #                   doc/paper/reproduce.sh
-#   stability       those of doc/stability.md (two minutes)
-#   convergence     that of half spaces in doc/verification.md (some minutes)
-#   cap_pulled_off  that of a cap that is pulled off there (some minutes)
-#   bonds           that of bonds on half spaces in doc/verification.md (a minute)
-#   ensemble        those of doc/partial_bonding.md (ten minutes)
-#   calibration     that of doc/calibration.md (a minute)
-#   step_error      that of friction that turns in doc/speed_and_accuracy.md (ten minutes; CalculiX, if it is there)
-#   work_precision  those of doc/speed_and_accuracy.md, and its tables (20 minutes on a quiet machine)
+#   stability       those of doc/evidence/stability.md (half a minute)
+#   convergence     that of half spaces in doc/evidence/verification.md (a minute)
+#   cap_pulled_off  that of a cap that is pulled off there (two minutes)
+#   bonds           that of bonds on half spaces there (a minute)
+#   ensemble        those of random patterns of bonding (ten minutes)
+#   calibration     that of doc/howto/calibration.md (ten seconds)
+#   step_error      that of friction that turns in doc/evidence/speed_and_accuracy.md (ten minutes; CalculiX, if it is there)
+#   work_precision  the others there, and their tables (20 minutes on a quiet machine)
 #   all             all of these
-# Another program: DEBOND=FILE. Studies that are there already are not run again. Needs gnuplot.
+# Another program: DEBOND=FILE; another Python: PYTHON=FILE. Studies that are there already are not run again. Needs gnuplot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export DEBOND=${DEBOND:-build/release/debond}
 figures="fig_1 fig_3_12 fig_4 fig_5_6 fig_7_8 fig_9 fig_10 fig_13"
 [[ -x $DEBOND ]] || { echo "pictures.sh: there is no $DEBOND: build the program first, or set DEBOND" >&2; exit 1; }
 
+# by half, if pngquant is there and 256 colours are enough
+shrink() {
+  ! command -v pngquant > /dev/null || pngquant --force --ext .png --skip-if-larger --quality 85-100 "$1" || true
+}
+
 # publish FILE...: pictures without their extension
 publish() {
   local name
   for name in "$@"; do
     cp "$name.png" doc/images/
+    shrink "doc/images/$(basename "$name").png"
     if [[ -f $name.svg ]]; then cp "$name.svg" doc/images/; fi
   done
 }
@@ -32,6 +44,41 @@ publish() {
 # phases that end at the angles of the pictures have files there
 at_angles() {
   "$DEBOND" prm/coin_mode3_fast.prm --force --set "Output/Fields every=1000000" --set Output/Console=quiet "$@"
+}
+
+# coins with maps that are smooth, of a scene that is otherwise that of the first run
+coin() {
+  "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Output/Console=quiet --set "Output/Fields every=none" \
+    --set "Bone/Cells=30, 30, 2" --set Bone/Material=linear --set Implant/Material=linear "$@"
+}
+
+half_bonded() {
+  local name
+  for name in full disk side random; do
+    local pattern=()
+    case $name in
+      disk) pattern=(--set Interface/Bonding/Pattern=disk --set "Interface/Bonding/Bonded fraction=0.5") ;;
+      side) pattern=(--set Interface/Bonding/Pattern=expression --set "Interface/Bonding/Expression=if(x < 0, 1, 0)") ;;
+      random)
+        pattern=(--set Interface/Bonding/Pattern=random --set "Interface/Bonding/Bonded fraction=0.5"
+          --set "Interface/Bonding/Correlation length=0.6")
+        ;;
+    esac
+    coin --set "Output/Directory=output/half_bonded/$name" --set "Output/Profile angles=0.1" --set "Load steps/Times=0, 1, 1.05, 2" \
+      --set "Load steps/Steps=1, 50, 95" --set "Implant/Cells=24, 2" --set "Interface/Quadrature points=3" \
+      --set "Interface/Bonding/Resolution=quadrature point" "${pattern[@]}"
+  done
+  gnuplot doc/half_bonded.gp
+  publish output/half_bonded/half_bonded
+}
+
+film() {
+  local angles python=${PYTHON:-python3}
+  angles=$("$python" doc/film.py --angles)
+  coin --set Output/Directory=output/film --set "Output/Profile angles=$angles" \
+    --set "Load steps/Steps=1, 500" --set "Implant/Cells=12, 2" --set "Interface/Quadrature points=5"
+  "$python" doc/film.py output/film --film doc/images/front.webm --still doc/images/front_film.png
+  rm output/film/profiles.csv # a hundred megabytes
 }
 
 bodies() {
@@ -56,9 +103,26 @@ bodies() {
 
 make_pictures() {
   case $1 in
+    setup) rsvg-convert doc/images/setup.svg --output doc/images/setup.png ;;
+    first) doc/first_picture.sh ;;
+    half_bonded) half_bonded ;;
+    film) film ;;
+    report)
+      "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Output/Directory=output/report --set Output/Console=quiet
+      chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1200,2000 --screenshot=output/report/report.png \
+        "file://$PWD/output/report/report.html"
+      convert output/report/report.png -crop 1200x1500+0+0 +repage doc/images/report.png # curve, values and the first maps
+      shrink doc/images/report.png
+      ;;
+    tutorial_fit)
+      "$DEBOND" prm/tutorial/fit.prm --force
+      gnuplot -e "dir='output/tutorial/fit'; source='curve to be fitted, made up'" doc/plot_calibration.gp
+      cp output/tutorial/fit/fit.png doc/images/tutorial_fit.png
+      ;;
     calibration)
       "$DEBOND" prm/calibrate/data_set_1.prm --force
-      gnuplot -e "dir='output/calibrate/data_set_1'; source='Eq. (18)'" doc/plot_calibration.gp
+      gnuplot -e "dir='output/calibrate/data_set_1'; source='Eq. (18)'; heading='Data set 1: five parameters fitted to Eq. (18)'" \
+        doc/plot_calibration.gp
       cp output/calibrate/data_set_1/fit.png doc/images/calibration_data_set_1.png
       ;;
     geometry)
@@ -76,7 +140,7 @@ make_pictures() {
     ensemble | work_precision) "doc/studies/$1.sh" --publish ;;
     all)
       local name
-      for name in geometry bodies paper stability convergence cap_pulled_off bonds ensemble calibration step_error work_precision; do make_pictures $name; done
+      for name in setup first geometry half_bonded film report tutorial_fit bodies paper stability convergence cap_pulled_off bonds ensemble calibration step_error work_precision; do make_pictures $name; done
       ;;
     *)
       echo "pictures.sh: unknown name '$1'; the names stand at the top of this script" >&2
@@ -100,5 +164,5 @@ publish_figures() {
   done
 }
 
-if (($# == 0)); then sed -n '2,15s/^# //p' "$0"; exit 1; fi
+if (($# == 0)); then sed -n '2,22s/^# //p' "$0"; exit 1; fi
 for name in "$@"; do make_pictures "$name"; done

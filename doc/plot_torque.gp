@@ -15,7 +15,7 @@
 #   gnuplot -e "dir='output/coin'; reference='measured.csv'" doc/plot_torque.gp
 #
 # With the bonding state phi on the contact face below, from the profiles.csv of a run with Output / Profile angles:
-# faces='DIRECTORY' and angles='1 1.5 2.5 5' [degrees], as in doc/first_picture.sh.
+# faces='DIRECTORY', angles='1 1.5 2.5 5' [degrees] and points=9, its Interface / Quadrature points, as in doc/first_picture.sh.
 
 if (!exists("dir")) {
   print "usage: gnuplot -e \"dir='output/coin'\" doc/plot_torque.gp"
@@ -27,17 +27,11 @@ file = finest(dir)
 if (!exists("faces")) { angles = "" }
 n_faces = words(angles)
 
-set terminal pngcairo size 1200, n_faces ? 1150 : 800 enhanced font "Sans,16" linewidth 1.5
-set output dir . "/torque.png"
-set encoding utf8
-set datafile separator comma
-set datafile columnheaders
-set datafile missing NaN
-
-set xlabel "Rotation angle {/:Italic θ} [°]"
-set ylabel "Torque {/:Italic T} [N mm]"
-set grid linetype 1 linecolor rgb "#dddddd" linewidth 0.7
-set border linecolor rgb "#555555"
+format = "png"
+load "doc/style.gp"
+eval picture(dir . "/torque", 1200, n_faces ? 1150 : 800)
+set xlabel angle_label
+set ylabel torque_label
 set key top right noenhanced
 set xrange [*:*] noextend
 set offsets graph 0, graph 0, graph 0.05, graph 0
@@ -56,11 +50,11 @@ at_face(i) = abs(column("angle_deg") - word(angles, i)) < 1e-6
 
 do for [i=1:n_faces] { # where on the curve the faces are
   stats faces . "/torque.csv" using (at_face(i) ? column("torque_Nmm") : NaN) nooutput
-  set label 10 + i "" at first real(word(angles, i)), first STATS_max point pointtype 7 pointsize 1.3 linecolor rgb "#c03028"
+  set label 10 + i "" at first real(word(angles, i)), first STATS_max point pointtype 7 pointsize (1.3 * point) linecolor rgb blue
 }
 
 set multiplot
-if (n_faces) { set lmargin at screen 0.08; set rmargin at screen 0.97; set tmargin at screen 0.955; set bmargin at screen 0.38 }
+if (n_faces) { set lmargin at screen 0.09; set rmargin at screen 0.97; set tmargin at screen 0.955; set bmargin at screen 0.38 }
 if (exists("published")) {
   T_max = real(word(published, 1))
   T_inf = real(word(published, 2))
@@ -68,26 +62,26 @@ if (exists("published")) {
   peak  = real(word(published, 4))
   do for [i=1:2] {
     T = real(word(published, i))
-    set arrow i from graph 0, first T to graph 1, first T nohead dashtype 2 linewidth 1 linecolor rgb "#2c1e5c" back
+    set arrow i from graph 0, first T to graph 1, first T nohead dashtype 2 linewidth 1 linecolor rgb "#333333" back
     set label i sprintf("published {/:Italic T}_{%s} = %.1f N mm", i == 1 ? "max" : "∞", T) \
-      at graph 0.985, first T right offset 0, 0.9 textcolor rgb "#2c1e5c" enhanced
+      at graph 0.985, first T right offset 0, 0.9 textcolor rgb "#333333" enhanced
   }
   unset key
 }
 if (exists("other")) {
-  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" title label(dir), \
-       finest(other) using "angle_deg":"torque_Nmm" with lines linewidth 1 linecolor rgb "#2c1e5c" notitle, \
-       other . "/torque.csv" using "angle_deg":"torque_Nmm" with points pointtype 7 pointsize 0.6 \
-         linecolor rgb "#2c1e5c" title label(other)
+  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb blue title label(dir), \
+       finest(other) using "angle_deg":"torque_Nmm" with lines linewidth 1 linecolor rgb red notitle, \
+       other . "/torque.csv" using "angle_deg":"torque_Nmm" with points pointtype 7 pointsize (0.6 * point) \
+         linecolor rgb red title label(other)
 } else { if (exists("reference")) {
   plot reference using "angle_deg":"torque_Nmm" with points pointtype 6 linecolor rgb "#555555" title reference, \
-       file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" title "debond"
+       file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb blue title "debond"
 } else {
-  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" notitle
+  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb blue notitle
 } }
 
 if (exists("published")) { # the beginning, enlarged
-  high = n_faces ? 0.62 : 0.49
+  high = n_faces ? 0.60 : 0.47
   set lmargin at screen 0.45
   set rmargin at screen 0.94
   set bmargin at screen (n_faces ? 0.44 : 0.19)
@@ -100,45 +94,40 @@ if (exists("published")) { # the beginning, enlarged
   unset offsets
   set xrange [0:2.2 * peak]
   set yrange [0:1.4 * T_max]
+  set ytics 20
   do for [i=3:4] {
     angle = real(word(published, i))
-    set arrow i from first angle, graph 0 to first angle, graph 1 nohead dashtype 2 linewidth 1 linecolor rgb "#2c1e5c" back
+    set arrow i from first angle, graph 0 to first angle, graph 1 nohead dashtype 2 linewidth 1 linecolor rgb "#333333" back
     set label i sprintf("{/:Italic θ}_{%s} = %g°", i == 3 ? "lin" : "max", angle) \
-      at first angle, graph 0.12 left offset 0.7, 0 textcolor rgb "#2c1e5c" enhanced
+      at first angle, graph 0.14 left offset 0.7, 0 textcolor rgb "#333333" enhanced
   }
-  set label 1 sprintf("published {/:Italic T}_{max}") at graph 0.985, first T_max right offset 0, 0.7 textcolor rgb "#2c1e5c" enhanced
-  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb "#c03028" notitle
+  set label 1 sprintf("published {/:Italic T}_{max}") at graph 0.985, first T_max right offset 0, 0.7 textcolor rgb "#333333" enhanced
+  plot file using "angle_deg":"torque_Nmm" with lines linewidth 2 linecolor rgb blue notitle
   unset label
   unset arrow
 }
 
 if (n_faces) {
-  unset key
   unset label
-  unset grid
-  unset border
-  unset tics
   unset xlabel
   unset ylabel
   unset offsets
-  set size ratio -1
-  set xrange [-2.6:2.6]
-  set yrange [-2.6:2.6]
+  load "doc/paper/faces.gp"
+  eval colours_of("phi")
   set cbrange [0:1]
-  set palette defined (0 "#2c1e5c", 0.5 "#d04a62", 1 "#fbe9a0")
   set tmargin at screen 0.28
   set bmargin at screen 0.03
   do for [i=1:n_faces] {
-    set lmargin at screen 0.04 + 0.83 / n_faces * (i - 1)
-    set rmargin at screen 0.03 + 0.83 / n_faces * i
-    set title word(angles, i) . "°" offset 0, -0.7
+    set lmargin at screen 0.03 + 0.81 / n_faces * (i - 1)
+    set rmargin at screen 0.02 + 0.81 / n_faces * i
+    set title word(angles, i) . "°" offset 0, -0.5
     if (i == n_faces) {
-      set colorbox user origin 0.875, 0.06 size 0.015, 0.19
+      set colorbox user origin 0.85, 0.06 size 0.015, 0.19
       set cbtics ("0 broken" 0, "0.5" 0.5, "1 bonded" 1)
-      set label 1 "{/:Italic φ}" at screen 0.8825, 0.275 center enhanced
+      set label 1 "{/:Italic φ}" at screen 0.8575, 0.275 center enhanced
     } else { unset colorbox }
-    plot faces . "/profiles.csv" using (at_face(i) ? column("x_mm") : NaN):"y_mm":"phi" \
-      with points pointtype 5 pointsize 0.6 palette
+    splot face(faces . "/profiles.csv", word(angles, i), points) using "x_mm":"y_mm":"phi" with pm3d
   }
 }
 unset multiplot
+unset output

@@ -11,4 +11,4 @@ set xrange [-2.51:2.51]
 set yrange [-2.51:2.51]
 # borders in the colour of their cells cover the seams that antialiasing shows
 set pm3d map corners2color mean interpolate 4, 4 border retrace linewidth 1.5
-set palette maxcolors 64
+set palette maxcolors 256

@@ -6,17 +6,18 @@ array name[3] = ["Eqs. (14) to (16), fitted", "Eq. (18)", "finite elements, cali
 array published[2] = ['0.13,40.35\n1.13,53.8\n10,36.8', '0.11,44.63\n2.02,59.5\n10,44.4']
 do for [format in "png svg"] {
   load "doc/style.gp"
-  eval picture(dir . "fig_4", 1400, 560)
+  eval picture(dir . "fig_4", 1400, 640)
   set multiplot layout 1, 2
   set xlabel angle_label
   set ylabel torque_label
   set xrange [0:10.2]
   set yrange [0:70]
-  set key bottom right
+  eval key_below(2, 2)
   do for [set=1:2] {
     set title sprintf("Data set %d", set)
     plot for [i=1:3] file(3 * set - 3 + i) using "angle_deg":"torque_Nmm" with lines title name[i], \
       marks(published[set]) with points linestyle 1 title "published"
+    unset key
   }
   unset multiplot
 }

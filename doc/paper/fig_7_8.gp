@@ -8,15 +8,15 @@ format = "map"
 
 # before debonding begins phi is phi_0
 load "doc/style.gp"
-eval picture(dir . "fig_7", 1300, 360)
-set multiplot layout 1, 4 margins 0.01, 0.88, 0.03, 0.88 spacing 0.01, 0
+eval picture(dir . "fig_7", 1300, 375)
+set multiplot layout 1, 4 margins 0.01, 0.86, 0.03, 0.86 spacing 0.01, 0
 load "doc/paper/faces.gp"
 set cbrange [0:1]
 set pm3d corners2color c1 interpolate 1, 1 border retrace linewidth 1 # what jumps from element to element has no values in between
 do for [i=1:4] {
   if (i == 4) {
-    set colorbox user origin 0.895, 0.08 size 0.012, 0.76
-    set cblabel "Initial bonding φ_0"
+    set colorbox user origin 0.87, 0.08 size 0.012, 0.74
+    set cblabel "Bonding degree φ_0"
   } else { unset colorbox }
   set title name[i]
   splot face(file(i), "0.1", 6) using "x_mm":"y_mm":"phi" with pm3d
@@ -27,14 +27,15 @@ unset multiplot
 do for [quantity in "mu slip_mm"] {
   load "doc/style.gp"
   eval picture(dir . (quantity eq "mu" ? "fig_8" : "fig_8_slip"), 1500, 1000)
-  set multiplot layout 4, 6 margins 0.045, 0.88, 0.02, 0.95 spacing 0.005, 0.01
+  set multiplot layout 4, 6 margins 0.045, 0.87, 0.02, 0.95 spacing 0.005, 0.01
   load "doc/paper/faces.gp"
+  eval colours_of(quantity)
   set pm3d interpolate 2, 2
   set cbrange [(quantity eq "mu" ? 0.4 : 0):(quantity eq "mu" ? 0.97 : 0.44)]
   do for [row=1:4] {
     do for [i=1:6] {
       if (i == 6 && row == 4) {
-        set colorbox user origin 0.895, 0.12 size 0.012, 0.75
+        set colorbox user origin 0.88, 0.12 size 0.012, 0.75
         set cblabel (quantity eq "mu" ? "Friction coefficient {/:Italic μ}" : "Sliding distance {/:Italic g}_s [mm]")
       } else { unset colorbox }
       if (row == 1) { set title word(angles, i) . "°" } else { unset title }

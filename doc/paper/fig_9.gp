@@ -5,7 +5,7 @@ file(i) = sprintf("%svariant-%03d/torque.csv", dir, i)
 array name[4] = ["homogeneous, φ_0 = 1", "(b)", "(c) disk", "(d) random"]
 do for [format in "png svg"] {
   load "doc/style.gp"
-  eval picture(dir . "fig_9", 1400, 560)
+  eval picture(dir . "fig_9", 1400, 640)
   set linetype 10 linecolor rgb grey linewidth 2
   set multiplot layout 1, 2
   set xlabel angle_label
@@ -13,7 +13,7 @@ do for [format in "png svg"] {
   do for [part=1:2] {
     set xrange [0:(part == 1 ? 10.2 : 2.5)]
     set yrange [0:60]
-    if (part == 1) { set key bottom right } else { unset key }
+    if (part == 1) { eval key_below(2, 0) } else { unset key }
     plot for [i=1:4] file(i) using "angle_deg":"torque_Nmm" with lines linetype (i == 1 ? 10 : i - 1) title name[i], \
       marks('0.13,40.35\n1.13,53.8\n10,36.8') with points linestyle 1 title "published, data set 1"
   }

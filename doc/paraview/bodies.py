@@ -65,7 +65,7 @@ class Picture:
         actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
         actor.SetPosition(x, y)
         style = actor.GetTextProperty()
-        style.SetFontSize(round(0.016 * self.size[0]))
+        style.SetFontSize(round(0.021 * self.size[0]))
         style.SetColor(0, 0, 0)
         style.SetJustificationToCentered()
         if os.path.isfile(FONT):
@@ -74,7 +74,7 @@ class Picture:
         self.view.GetRenderer().AddActor(actor)
 
     def title(self, column, text):
-        self.text(text, (column + 0.5) * WIDTH / self.extent[0], 0.94)
+        self.text(text, (column + 0.5) * WIDTH / self.extent[0], 0.915)
 
     def save(self, name):
         simple.SaveScreenshot(name, self.view, ImageResolution=self.size, OverrideColorPalette="")
@@ -121,7 +121,7 @@ def draw_stress(arguments):
     frames = read_frames(arguments.directory)
     angles = arguments.angles or even_choice(frames, False, 2)
     chosen = choose(frames, angles, False, arguments.directory)
-    picture = Picture(len(chosen), arguments.width, 12, 0.2, 0.33)
+    picture = Picture(len(chosen), arguments.width, 12, 0.2, 0.36)
     readers = [read_bulk(frame) for frame in chosen]
     cuts = [simple.Clip(Input=reader, ClipType="Plane", Invert=0) for reader in readers]
     for cut in cuts:
@@ -142,11 +142,11 @@ def draw_stress(arguments):
     bar = simple.GetScalarBar(colours, picture.view)
     bar.Visibility, bar.Title, bar.ComponentTitle, bar.WindowLocation = 1, "", "", "Any Location"
     bar.Position, bar.ScalarBarLength = [1 - 0.27 * WIDTH / picture.extent[0], 0.15], 0.62
-    bar.ScalarBarThickness, bar.LabelFontSize = round(0.015 * picture.size[0]), round(0.016 * picture.size[0])
+    bar.ScalarBarThickness, bar.LabelFontSize = round(0.015 * picture.size[0]), round(0.021 * picture.size[0])
     bar.LabelColor, bar.TextPosition = [0, 0, 0], "Ticks right/top, annotations left/bottom"
     bar.UseCustomLabels, bar.CustomLabels, bar.AddRangeLabels = 1, round_numbers(0, high), 0
     bar.AutomaticLabelFormat, bar.LabelFormat = 0, "%g"
-    picture.text("von Mises\nstress [MPa]", 1 - 0.17 * WIDTH / picture.extent[0], 0.81)
+    picture.text("von Mises\nstress [MPa]", 1 - 0.18 * WIDTH / picture.extent[0], 0.81)
     picture.save(arguments.output)
 
 

@@ -36,7 +36,7 @@ import xml.etree.ElementTree
 FIELDS = {
     "mu": ("μ", None, None, "friction coefficient mu"),
     "phi": ("φ", 0, 1, "bonding state phi"),
-    "phi_0": ("φ₀", 0, 1, "initial bonding state phi_0"),
+    "phi_0": ("φ₀", 0, 1, "bonding degree phi_0"),
     "slip_mm": ("gₛ [mm]", 0, None, "sliding distance [mm]"),
     "pressure_MPa": ("p [MPa]", None, None, "pressure [MPa]"),
     "gap_mm": ("gₙ [mm]", None, None, "normal gap [mm]"),
@@ -49,7 +49,13 @@ FACES = ["phi", "mu", "pressure_MPa", "state"]  # what is opened
 STATES = {"open": "#d8d8d8", "stick": "#fde725", "slip": "#6fb3bf", "pulled": "#b5367a"}  # the last with strength in tension only
 ARROWS = 13  # of the traction across the implant
 MOST_CELLS = 100000  # of a body whose cells have borders
-PALETTE = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]  # as in doc/style.gp
+# A colour map for each quantity, as in doc/style.gp. Pressure below zero is tension: white is zero then.
+BOND = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]
+SLIP = ["#ffffe5", "#fff7bc", "#fee391", "#fec44f", "#fe9929", "#ec7014", "#cc4c02", "#8c2d04"]
+PRESSURE = ["#f7fbff", "#deebf7", "#c6dbef", "#9ecae1", "#6baed6", "#4292c6", "#2171b5", "#084594"]
+TENSION = ["#fff5f0", "#fee0d2", "#fcbba1", "#fc9272", "#fb6a4a", "#ef3b2c", "#cb181d", "#99000d"]
+STRESS = ["#0d0887", "#5302a3", "#8b0aa5", "#b83289", "#db5c68", "#f48849", "#febd2a", "#f0f921"]
+PALETTES = {"slip_mm": SLIP, "pressure_MPa": PRESSURE, "gap_mm": PRESSURE, "von_Mises_MPa": STRESS}
 GREY, BONE, IMPLANT = "#555555", "#e3d5b0", "#b9c4cf"
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"  # knows Greek; without it fields go by their plain names
 # Oblique view of the bodies: towards the camera, to the right and up in the picture.
@@ -154,6 +160,27 @@ def scale_of(field, ranges):
     return float("%.6g" % low), float("%.6g" % high)
 
 
+def colour_points(field, low, high):
+    """Values and their colours, from the lowest to the highest value."""
+    def spread(low, high, palette):
+        return [(low + (high - low) * i / (len(palette) - 1), colour) for i, colour in enumerate(palette)]
+    if field == "pressure_MPa" and low < 0:
+        largest = max(-low, high)  # equal colours on both sides are equally far from zero
+        both = spread(-largest, 0, TENSION[::-1])[:-1] + spread(0, largest, PRESSURE)
+        inner = [point for point in both if low < point[0] < high]
+        return [(low, mixed(both, low))] + inner + [(high, mixed(both, high))]
+    return spread(low, high, PALETTES.get(field, BOND))
+
+
+def mixed(points, value):
+    """The colour of a value between points."""
+    for (a, first), (b, second) in zip(points, points[1:]):
+        if value <= b:
+            t = (value - a) / (b - a)
+            return "#" + "".join("%02x" % round(255 * (p + (q - p) * t)) for p, q in zip(rgb(first), rgb(second)))
+    return points[-1][1]
+
+
 def set_colours(colours, field, scale, fields=()):
     """Of a ParaView colour function; @p fields are those that there are."""
     colours.AutomaticRescaleRangeMode = "Never"
@@ -164,8 +191,7 @@ def set_colours(colours, field, scale, fields=()):
         colours.IndexedColors = sum((rgb(colour) for _, colour in states), [])
     else:
         colours.ColorSpace = "RGB"
-        step = (scale[1] - scale[0]) / (len(PALETTE) - 1)
-        colours.RGBPoints = sum(([scale[0] + i * step] + rgb(colour) for i, colour in enumerate(PALETTE)), [])
+        colours.RGBPoints = sum(([value] + rgb(colour) for value, colour in colour_points(field, *scale)), [])
 
 
 def run_with_a_screen():
@@ -379,11 +405,11 @@ class Opened:
         self.look(view, centre, TOWARDS, [0, 0, 1], height)
 
     def show_texts(self, view, name):
-        self.show_text(view, simple.Text(registrationName="title", Text=name), min(18, 1200 // len(name)))
+        self.show_text(view, simple.Text(registrationName="title", Text=name), min(26, 1500 // len(name)))
         texts = ["\n" + self.label(frame) for _, frame in self.moments]  # below the title
         self.show_text(view, simple.PythonAnnotation(
             registrationName="angle and torque", Input=self.face, ArrayAssociation="Point Data",
-            Expression="%r[abs(numpy.array(t_steps) - t_value).argmin()]" % texts), 24)
+            Expression="%r[abs(numpy.array(t_steps) - t_value).argmin()]" % texts), 30)
 
     def show_face(self, view, field):
         shown = simple.Show(self.face, view)
@@ -393,10 +419,10 @@ class Opened:
         name = FIELDS[field][3]
         if self.largest_traction > 0 and field == ("state" if "state" in self.fields else self.fields[0]):
             arrows = simple.Show(self.arrows, view, Position=[0, 0, 1])
-            colour = [0, 0, 0] if field == "state" else [1, 1, 1]
+            colour = [0, 0, 0] if field == "state" or field in PALETTES else [1, 1, 1]
             arrows.ColorArrayName, arrows.AmbientColor, arrows.Ambient, arrows.Diffuse = [None, ""], colour, 1, 0
-            name += "\narrows: traction up to %.3g MPa" % self.largest_traction
-        self.show_text(view, simple.Text(registrationName="name of " + field, Text=name), 15)
+            name += "\narrows: up to %.3g MPa" % self.largest_traction
+        self.show_text(view, simple.Text(registrationName="name of " + field, Text=name), 24)
         self.show_bar(view, field)
         x0, x1, y0, y1 = self.bounds[:4]
         view.InteractionMode = "2D"
@@ -423,8 +449,8 @@ class Opened:
     def show_bar(self, view, field):
         bar = simple.GetScalarBar(simple.GetColorTransferFunction(field), view)
         bar.Visibility, bar.Title, bar.ComponentTitle, bar.Orientation = 1, "", "", "Horizontal"
-        bar.WindowLocation, bar.ScalarBarLength, bar.ScalarBarThickness = "Lower Center", 0.6, 14
-        bar.LabelFontSize, bar.TitleFontSize, bar.LabelColor, bar.TitleColor = 15, 15, [0, 0, 0], [0, 0, 0]
+        bar.WindowLocation, bar.ScalarBarLength, bar.ScalarBarThickness = "Lower Center", 0.6, 18
+        bar.LabelFontSize, bar.TitleFontSize, bar.LabelColor, bar.TitleColor = 24, 24, [0, 0, 0], [0, 0, 0]
         bar.DrawScalarBarOutline, bar.ScalarBarOutlineColor = 1, rgb(GREY)
         if field != "state":
             bar.UseCustomLabels, bar.CustomLabels, bar.AddRangeLabels = 1, round_numbers(*self.scales[field], most=4), 0

@@ -9,8 +9,8 @@ do for [format in "png svg"] {
   set yrange [-15:20]
   set key top right
   plot results("bilinear") using "chuck_ux_mm":(column("time") < 1 ? NaN : 1e3 * column("chuck_Fx_N")) with linespoints \
-      pointsize 0.5 linetype 4 title "bilinear bone", \
+      pointsize (0.5 * point) linetype 4 title "bilinear bone", \
     results("nurbs") using "chuck_ux_mm":(column("time") < 1 ? NaN : 1e3 * column("chuck_Fx_N")) with linespoints \
-      pointsize 0.5 linetype 1 title "NURBS"
+      pointsize (0.5 * point) linetype 1 title "NURBS"
 }
 unset output

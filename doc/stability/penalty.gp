@@ -6,7 +6,7 @@ do for [format in "png svg"] {
   eval picture("output/stability/penalty", 1000, 600)
   set logscale x
   set format x "10^{%L}"
-  set xlabel "Normal stiffness [MPa/mm]"
+  set xlabel "Normal stiffness ε_n [MPa/mm]"
   set ylabel "Newton iterations in 101 steps"
   set yrange [0:]
   set xrange [3:1e6]

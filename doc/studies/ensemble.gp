@@ -3,17 +3,17 @@ dir = "output/studies/"
 do for [format in "png svg"] {
   # ---- torque band of 200 implants, and the same near the peak
   load "doc/style.gp"
-  eval picture(dir . "ensemble", 1400, 560)
+  eval picture(dir . "ensemble", 1400, 640)
   file = dir . "ensemble/ensemble.csv"
   homogeneous = dir . "ensemble_homogeneous/variant-007/curve.csv"
   set multiplot layout 1, 2
   set xlabel angle_label
   set ylabel torque_label
   do for [panel=1:2] {
-    set title (panel == 1 ? "200 implants, 55 % of the surface bonded at random" : "Near the peak")
+    set title (panel == 1 ? "200 implants, 55 % bonded at random" : "Near the peak")
     set xrange [0:(panel == 1 ? 10 : 2.5)]
     set yrange [(panel == 1 ? 0 : 44.4):(panel == 1 ? 50 : 46.9)]
-    if (panel == 1) { set key bottom right } else { unset key }
+    if (panel == 1) { eval key_below(1, -1) } else { unset key }
     plot file using "angle_deg":"torque_p05_Nmm":"torque_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "5 to 95 %", \
       "" using "angle_deg":"torque_mean_Nmm" with lines linetype 1 title "mean", \
       homogeneous using "angle_deg":"torque_Nmm" with lines dashtype 2 linetype 4 title "homogeneous, φ_0 = 0.55"
@@ -22,7 +22,7 @@ do for [format in "png svg"] {
 
   # ---- T_max and D_adh over the bonded fraction
   load "doc/style.gp"
-  eval picture(dir . "ensemble_fraction", 1400, 560)
+  eval picture(dir . "ensemble_fraction", 1400, 640)
   file = dir . "ensemble_fraction/ensemble_summary.csv"
   homogeneous = dir . "ensemble_homogeneous/study.csv"
   fraction = "Interface / Bonding / Bonded fraction"
@@ -32,21 +32,22 @@ do for [format in "png svg"] {
   set multiplot layout 1, 2
   set xlabel "Bonded fraction of the surface"
   set xrange [0:1]
-  set key top left
+  eval key_below(1, -1)
   do for [i=1:2] {
     col(what) = column(quantity[i] . "_" . what . "_Nmm")
     set ylabel label[i]
-    plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "20 random patterns, 5 to 95 %", \
-      "" using (column(fraction)):(col("mean")) with linespoints linetype 1 title "their mean", \
+    if (i == 2) { set yrange [0:0.8] }
+    plot file using (column(fraction)):(col("p05")):(col("p95")) with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "20 patterns, 5 to 95 %", \
+      "" using (column(fraction)):(col("mean")) with linespoints linetype 1 title "mean", \
       homogeneous using (column(phi_0)):(column(quantity[i] . "_Nmm")) with lines dashtype 2 linetype 4 \
-        title "homogeneous, φ_0 = the fraction"
+        title "homogeneous"
     unset key
   }
   unset multiplot
 
   # ---- scatter over the correlation length
   load "doc/style.gp"
-  eval picture(dir . "ensemble_correlation", 1400, 560)
+  eval picture(dir . "ensemble_correlation", 1400, 640)
   file = dir . "ensemble_correlation/ensemble_summary.csv"
   length = "Interface / Bonding / Correlation length"
   set multiplot layout 1, 2
@@ -54,7 +55,7 @@ do for [format in "png svg"] {
   set xrange [0:2.1]
   set key top left
   set ylabel "Largest torque {/:Italic T}_{max} [N mm]"
-  plot file using (column(length)):"T_max_p05_Nmm":"T_max_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "40 random patterns, 5 to 95 %", \
+  plot file using (column(length)):"T_max_p05_Nmm":"T_max_p95_Nmm" with filledcurves fillstyle solid 0.5 noborder linecolor rgb sky title "40 patterns, 5 to 95 %", \
     "" using (column(length)):"T_max_p50_Nmm" with linespoints linetype 1 title "median"
   set ylabel "Standard deviation / mean [%]"
   set yrange [0:*]

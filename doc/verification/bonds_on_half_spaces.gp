@@ -15,35 +15,36 @@ brittle_force = 872.51
 brittle_torque = 1216.62
 do for [format in "png svg"] {
   load "doc/style.gp"
-  eval picture("output/bonds_on_half_spaces", 1400, 560)
+  eval picture("output/bonds_on_half_spaces", 1400, 640)
   set multiplot layout 1, 2
   set logscale xy
   set xrange [2:400]
   set yrange [0.04:1.5]
-  set xtics (2, 5, 10, 20, 50, 100, 200, 400)
+  set xtics (2, 5, 10, 20, 50, 100, 200)
   set ytics (0.05, 0.1, 0.2, 0.5, 1)
-  set key bottom right
-  set bmargin 4
+  eval key_below(2, -3)
+  unset key
 
   set title "Pulled off (mode I)"
   set xlabel "Strength {/:Italic t}_0 [MPa]"
   set ylabel "Largest force / Kendall's"
-  plot pi * 6.25 * x / brittle_force with lines dashtype 2 linecolor rgb grey title "strength: π{/:Italic R}^2{/:Italic t}_0", \
-    1 with lines dashtype 3 linecolor rgb "#555555" title "toughness: Kendall", \
-    reference using "strength_MPa":"pull_off" with lines linecolor rgb blue title "other method, adhesive", \
-    $pulled using "strength_MPa":(column("force_N") / brittle_force) with points pointtype 7 pointsize 1.3 linecolor rgb blue title "debond, adhesive"
+  plot pi * 6.25 * x / brittle_force with lines dashtype 2 linecolor rgb grey title "strength", \
+    1 with lines dashtype 3 linecolor rgb "#555555" title "toughness", \
+    reference using "strength_MPa":"pull_off" with lines linecolor rgb blue title "reference, adhesive", \
+    $pulled using "strength_MPa":(column("force_N") / brittle_force) with points pointtype 7 pointsize (1.3 * point) linecolor rgb blue title "debond, adhesive"
 
   set title "Twisted off (mode III)"
+  eval key_below(2, -1)
   set xlabel "Shear strength {/:Italic τ} [MPa]"
-  set ylabel "Largest torque / that of a brittle bond"
-  plot 2 * pi / 3 * 15.625 * x / brittle_torque with lines dashtype 2 linecolor rgb grey title "strength: 2/3 π{/:Italic R}^3{/:Italic τ}", \
+  set ylabel "Largest torque / brittle bond's"
+  plot 2 * pi / 3 * 15.625 * x / brittle_torque with lines dashtype 2 linecolor rgb grey title "strength", \
     1 with lines dashtype 3 linecolor rgb "#555555" title "toughness", \
-    reference using "strength_MPa":"twist_adhesive" with lines linecolor rgb blue title "other method, adhesive", \
-    reference using "strength_MPa":"twist_mixed_mode" with lines linecolor rgb red title "other method, mixed mode", \
+    reference using "strength_MPa":"twist_adhesive" with lines linecolor rgb blue title "reference, adhesive", \
+    reference using "strength_MPa":"twist_mixed_mode" with lines linecolor rgb red title "reference, mixed mode", \
     "output/bonded_disk_torsion/study.csv" using (tau[int(column("variant") - 1) % 5 + 1]):(column("T_max_Nmm") / brittle_torque) \
-      every ::0::4 with points pointtype 7 pointsize 1.3 linecolor rgb blue title "debond, adhesive", \
+      every ::0::4 with points pointtype 7 pointsize (1.3 * point) linecolor rgb blue title "debond, adhesive", \
     "" using (tau[int(column("variant") - 1) % 5 + 1]):(column("T_max_Nmm") / brittle_torque) \
-      every ::5::9 with points pointtype 7 pointsize 1.3 linecolor rgb red title "debond, mixed mode"
+      every ::5::9 with points pointtype 7 pointsize (1.3 * point) linecolor rgb red title "debond, mixed mode"
   unset multiplot
 }
 unset output

@@ -27,7 +27,7 @@ do for [format in "png svg"] {
   set label "JKR" at 3.6, 1.48
   plot 2 with lines linetype 3 dashtype 2 linecolor rgb grey notitle, 1.5 with lines linetype 3 dashtype 2 linecolor rgb grey notitle, \
     exact using "lambda":"dugdale" with lines linetype 1 title "Maugis: constant strength", \
-    exact using "lambda":"exponential" with lines linetype 2 title "rings: shape of the law adhesive", \
-    $ours using "lambda":"pull" with points linetype 4 pointsize 1.3 title "ours, {/:Italic E} = 10000 ... 200 MPa"
+    exact using "lambda":"exponential" with lines linetype 2 title "reference: the law adhesive", \
+    $ours using "lambda":"pull" with points linetype 4 pointsize (1.3 * point) title "debond, {/:Italic E} = 10000 ... 200 MPa"
 }
 unset output

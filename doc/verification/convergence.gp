@@ -30,7 +30,7 @@ do for [format in "png svg"] {
       every ::(4 * i - 4)::(4 * i - 1) with linespoints title "ε_t = " . stiffness[i] . unit, \
     20 * x**-1.5 with lines dashtype 2 linecolor rgb grey title "slope -1.5"
 
-  set title "Torsional partial slip under uniform pressure"
+  set title "Torsional partial slip, uniform pressure"
   set ylabel "Largest difference / {/:Italic T}_{max}"
   set yrange [1e-4:0.1]
   plot for [i=1:3] study("torsional_partial_slip") using (N[int(column("variant") - 1) % 4 + 1]):"difference_max" \

@@ -4,6 +4,7 @@ What a page needs is in the site, so that it can be read from its files, without
 and DEBOND_API, the directory of the pages of the source (target documentation), which are copied if they are there.
 """
 
+import glob
 import os
 import re
 import shutil
@@ -52,7 +53,7 @@ mathjax2_config = {
     "extensions": ["tex2jax.js"],
     "TeX": {"extensions": ["AMSmath.js", "AMSsymbols.js", "noErrors.js", "noUndefined.js"]},
     "tex2jax": {"inlineMath": [["\\(", "\\)"]], "displayMath": [["\\[", "\\]"]], "ignoreClass": "document", "processClass": "math"},
-    "SVG": {"font": "TeX", "linebreaks": {"automatic": True, "width": "container"}},
+    "SVG": {"font": "TeX", "scale": 92, "linebreaks": {"automatic": True, "width": "container"}},
     "showMathMenu": False,
     "messageStyle": "none",
 }
@@ -100,6 +101,17 @@ def copy_parts(app, exception):
         else:
             os.makedirs(os.path.dirname(target), exist_ok=True)
             shutil.copy(source, target)
+    # Style sheets of Debian's themes name files that a server of Debian has.
+    for path in glob.glob(os.path.join(app.outdir, "_static", "**", "*.css"), recursive=True):
+        with open(path, encoding="utf-8") as file:
+            style = file.read()
+        for name in set(re.findall(r"/javascript/([\w./-]+)", style)):
+            target = os.path.join(app.outdir, "_static", "javascript", name)
+            os.makedirs(os.path.dirname(target), exist_ok=True)
+            shutil.copy(os.path.join("/usr/share/javascript", name), target)
+            style = style.replace("/javascript/" + name, os.path.relpath(target, os.path.dirname(path)))
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(style)
     if html_context["api"]:
         shutil.copytree(API, os.path.join(app.outdir, "developers", "api"), dirs_exist_ok=True)
 

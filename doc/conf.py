@@ -105,7 +105,7 @@ def copy_parts(app, exception):
     for path in glob.glob(os.path.join(app.outdir, "_static", "**", "*.css"), recursive=True):
         with open(path, encoding="utf-8") as file:
             style = file.read()
-        for name in set(re.findall(r"/javascript/([\w./-]+)", style)):
+        for name in set(re.findall(r"(?<![.\w])/javascript/([\w./-]+)", style)):
             target = os.path.join(app.outdir, "_static", "javascript", name)
             os.makedirs(os.path.dirname(target), exist_ok=True)
             shutil.copy(os.path.join("/usr/share/javascript", name), target)

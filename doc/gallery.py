@@ -130,6 +130,8 @@ def curve_of(directory):
             work = np.nansum(abs((force[1:] + force[:-1]) / 2 * np.diff(q))) * factor
             best = max(best, (work, x, y))
     _, x, y = best
+    if len(table[x]) < 2:
+        raise ValueError("no curve in " + directory)
     return (x, y), numbers_of(table[x]), numbers_of(table[y])
 
 
@@ -158,8 +160,8 @@ def map_of(directory):
     quantity = "phi"
     if spread(event) < 0.2:
         quantity = "pressure_MPa"
-        filled = [name for name in events if np.nanmax(np.nan_to_num(values_of(quantity, name)), initial=0) > 0]
-        event = filled[-1] if filled else events[-1]
+        sizes = {name: np.max(np.nan_to_num(abs(values_of(quantity, name))), initial=0) for name in events}
+        event = [name for name in events if sizes[name] >= 0.3 * max(sizes.values())][-1]
     x, y, values = (values_of(name, event) for name in (x_name, y_name, quantity))
     if not np.isfinite(values).any():
         return None
@@ -180,9 +182,9 @@ def draw_map(axes, found):
     if quantity == "phi":
         low, high = 0, 1
     else:
-        low, high = min(0, np.nanmin(grid)), np.nanmax(grid)
+        low, high = min(0, np.nanmin(grid)), max(0, np.nanmax(grid))  # tension is below zero
     axes.set_aspect("equal")
-    mesh = axes.pcolormesh(xs, ys, grid, cmap=LinearSegmentedColormap.from_list(quantity, colours), vmin=low, vmax=high or 1,
+    mesh = axes.pcolormesh(xs, ys, grid, cmap=LinearSegmentedColormap.from_list(quantity, colours), vmin=low, vmax=high if high > low else low + 1,
                            shading="nearest", rasterized=True)
     bar = axes.figure.colorbar(mesh, ax=axes, fraction=0.05, pad=0.03)
     bar.ax.tick_params(labelsize=7)
@@ -267,7 +269,7 @@ def draw(scene, directory, variants, of_map=(0, "")):
     map_told = ""
     if found:
         event = re.sub(r"^.* and ", "", found[1])  # of several at once the last
-        map_told = f"{MAPS[found[0]][0].replace(', MPa', '')}: {event}"
+        map_told = f"{MAPS[found[0]][0].replace(', MPa', '')}, {event}"
         if of_map[0]:
             map_told += f" (variant {of_map[0]})"
     return told, map_told
@@ -319,7 +321,7 @@ def run(scene, program, limit):
         done = [path for path in variants if summary_of(path) and "interrupt" not in summary_of(path).get("reason", "")]
         if n_variants and done:
             variants = done
-            note = f"Drawn from {len(done)} of {n_variants} variants."
+            note = f"Drawn from {len(done)} of {n_variants} variants." if len(done) < n_variants else ""
         elif n_variants:
             variants = [path for path in variants if os.path.exists(os.path.join(path, "torque.csv"))][:1]
             note = f"Drawn from a part of the first of {n_variants} variants."

@@ -102,7 +102,8 @@ def copy_parts(app, exception):
             os.makedirs(os.path.dirname(target), exist_ok=True)
             shutil.copy(source, target)
     # Style sheets of Debian's themes name files that a server of Debian has.
-    for path in glob.glob(os.path.join(app.outdir, "_static", "**", "*.css"), recursive=True):
+    styles = glob.glob(os.path.join(app.outdir, "_static", "**", "*.css"), recursive=True)
+    for path in filter(os.path.isfile, styles):
         with open(path, encoding="utf-8") as file:
             style = file.read()
         for name in set(re.findall(r"(?<![.\w])/javascript/([\w./-]+)", style)):

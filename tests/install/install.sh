@@ -11,7 +11,7 @@ installed/bin/debond prm/coin_mode3_fast.prm > log
 grep -o "Largest torque 50" log
 ls output/coin_fast/report.html
 grep -c "^# " installed/share/doc/debond/README.md
-(cd installed/share/doc/debond && ls doc/first_steps.sh doc/tutorial.md prm/coin_mode3.prm python/tutorial.ipynb)
+(cd installed/share/doc/debond && ls doc/first_steps.sh doc/tutorial/index.md prm/coin_mode3.prm python/tutorial.ipynb)
 "$links" installed/share/doc/debond
 
 mkdir own && cp "$example" own/own.cc

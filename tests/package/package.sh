@@ -18,7 +18,7 @@ if [[ -z $example ]]; then
   dpkg-deb -x "$program" root
   dpkg-deb -x "$library" root
   (cd root/usr/share/doc && ls debond/{README.md,README.Debian} {debond,libdebond-dev}/{copyright,changelog.Debian.gz})
-  (cd root/usr/share/doc/debond && ls doc/first_steps.sh doc/tutorial.md prm/coin_mode3.prm python/tutorial.ipynb && readlink LICENSE)
+  (cd root/usr/share/doc/debond && ls doc/first_steps.sh doc/tutorial/index.md prm/coin_mode3.prm python/tutorial.ipynb && readlink LICENSE)
   find root -name libdebond_library.a -o -name debondConfig.cmake -o -name scene.h | sed 's|.*/||' | sort
   zgrep -o "debond .- simulate" root/usr/share/man/man1/debond.1.gz
   echo "libraries loaded for nothing: $(ldd -u root/usr/bin/debond | grep -c /)"

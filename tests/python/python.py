@@ -134,7 +134,7 @@ def check_drive():
 
     # a force that depends on what the run has answered
     force = {"Chuck/Press/Control": "force", "Load steps/Times": [0, 1], "Load steps/Steps": 20}
-    simulation = debond.Simulation(debond.Scene(text=coin, entries=force), drive={"Translation z": -50, "Rotation z": 0})
+    simulation = debond.Simulation(debond.Scene(text=coin, entries=force), drive={"Press": 50, "Rotation z": 0})
     simulation.advance()
     while not simulation.is_finished:
         row = simulation.row

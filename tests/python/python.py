@@ -138,7 +138,7 @@ def check_drive():
     simulation.advance()
     while not simulation.is_finished:
         row = simulation.row
-        simulation.advance({"Translation z": -50 - 0.5 * row["torque_Nmm"], "Rotation z": row["angle_deg"] + 0.2})
+        simulation.advance({"Press": 50 + 0.5 * row["torque_Nmm"], "Rotation z": row["angle_deg"] + 0.2})
     rows = simulation.result().rows
     check("a force that follows the torque", numpy.allclose(rows["force_N"][1:], 50 + 0.5 * rows["torque_Nmm"][:-1], rtol=1e-6))
 

@@ -64,7 +64,8 @@ namespace
           drive->begin = drive->end = scene.load_steps.times.front();
           drive->from = drive->to           = value;
           drives[name]                      = drive;
-          scene.chuck.component[k].function = [drive](const double time) {
+          scene.chuck.component[k].into_bone = name == "Press";
+          scene.chuck.component[k].function  = [drive](const double time) {
             return (*drive)(time);
           };
         }
@@ -238,12 +239,15 @@ namespace
     static unsigned int
     component(const std::string &name)
     {
+      if (name == "Press")
+        return ChuckComponent::translation_z;
       const auto &names = ChuckParameters::names;
       const auto  found = std::find(names.begin(), names.end(), name);
       if (found == names.end())
         throw InputError("the chuck has no component '" + name +
-                         "': expected Translation x, Translation y, "
-                         "Translation z, Rotation x, Rotation y or Rotation z");
+                         "': expected Press, Translation x, "
+                         "Translation y, Translation z, Rotation x, Rotation y "
+                         "or Rotation z");
       return found - names.begin();
     }
 

@@ -28,19 +28,19 @@ def noise_of(generator, n):
 def main(directory, n):
     generator = numpy.random.default_rng(2026)
     with open(os.path.join(directory, "specimens.csv"), "w", encoding="utf-8") as table:
-        table.write("# made up by make_specimens.py\nspecimen,group,curve,Implant/Radius [mm],Chuck/Translation z/Value\n")
+        table.write("# made up by make_specimens.py\nspecimen,group,curve,Implant/Radius [mm],Chuck/Press/Value\n")
         for i in range(n):
             group = list(MU_UB)[i % 2]
             name, radius, force = f"{group[0].upper()}{i // 2 + 1}", round(2.5 + 0.05 * generator.uniform(-1, 1), 2), 45 + 5 * (i % 3)
             mu_ub, a_s = MU_UB[group] + 0.04 * generator.standard_normal(), 0.03 * numpy.exp(0.15 * generator.standard_normal())
-            entries = {"Implant/Radius": radius, "Chuck/Translation z/Value": f"-{force} * min(t, 1)", "Task": "simulate",
-                       "Interface/Friction coefficient unbroken": mu_ub, "Interface/Sliding threshold": a_s}
+            entries = {"Implant/Radius": radius, "Chuck/Press/Value": f"{force} * min(t, 1)", "Task": "simulate",
+                       "Interface/Friction coefficient unbroken": mu_ub, "Interface/Characteristic slip distance": a_s}
             rows = debond.Scene(os.path.join(HERE, "template.prm"), entries).run().rows
             angle, torque = (rows[column][rows["angle_deg"] > 0] for column in ("angle_deg", "torque_Nmm"))
             torque = torque + 0.01 * torque.max() * noise_of(generator, len(torque))
             numpy.savetxt(os.path.join(directory, name + ".csv"), numpy.column_stack([angle, torque]), "%.5g", ",",
                           header=f"made up: mu_ub = {mu_ub:.4f}, a_s = {a_s:.5f} mm\nangle_deg,torque_Nmm", comments="# ")
-            table.write(f"{name},{group},{name}.csv,{radius:g},\"-{force} * min(t, 1)\"\n")
+            table.write(f"{name},{group},{name}.csv,{radius:g},\"{force} * min(t, 1)\"\n")
 
 
 if __name__ == "__main__":

@@ -15,9 +15,9 @@ import sys
 true = {
     "Interface/Friction coefficient broken": 0.34,
     "Interface/Friction coefficient unbroken": 0.56,
-    "Interface/Sliding threshold": 0.045,  # mm
+    "Interface/Characteristic slip distance": 0.045,  # mm
     "Interface/Transition factor": 1.2,
-    "Interface/Tangential penalty stiffness": 350,  # MPa/mm
+    "Interface/Tangential stiffness": 350,  # MPa/mm
 }
 compliance, angle_offset, torque_offset = 0.002, 0.06, 0.5  # deg/(N mm), deg, N mm
 speed, seconds, noise = 0.02, 500, 0.25  # deg/s, s, N mm

@@ -209,13 +209,13 @@ class Result:
 class Simulation:
     """Finite elements, row by row, whatever Model the scene names.
 
-    drive: {component of the chuck: value at the first time}, "Translation x" ... "Rotation z", in mm or degrees, N or N mm if
+    drive: {component of the chuck: value at the first time}, "Press", "Translation x" ... "Rotation z", in mm or degrees, N or N mm if
     its Control says so. advance() is told where they go; their Value in the scene does not count. Between rows they go along
     straight lines, and rows are those of Load steps.
 
-        simulation = debond.Simulation(scene, drive={"Rotation z": 0, "Translation z": 0})
+        simulation = debond.Simulation(scene, drive={"Rotation z": 0, "Press": 0})
         while not simulation.is_finished:
-            simulation.advance({"Rotation z": angle, "Translation z": -force})
+            simulation.advance({"Rotation z": angle, "Press": force})
             angle += 0.1 if simulation.row["torque_Nmm"] < 40 else 0.02
 
     comm: a communicator of mpi4py whose processes solve the scene together, by multigrid; each of them makes the same calls.

@@ -113,8 +113,8 @@ namespace Debond
               variant_name(variants.size() + 1);
             // what only the study uses must not make another scene of a variant
             const auto own = with_overrides(std::move(combination.entries),
-                                            {"Study/Reference variant=0",
-                                             "Study/Factors varied at once=0",
+                                            {"Study/Reference variant=none",
+                                             "Study/Factors varied at once=all",
                                              "Study/Repetitions=1",
                                              "Output/Console=quiet",
                                              "Output/Report=false",

@@ -5,12 +5,12 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
-#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/trim_all.hpp>
 
 #include <algorithm>
 #include <functional>
+#include <locale>
 #include <regex>
 #include <sstream>
 #include <utility>
@@ -186,8 +186,9 @@ namespace Debond
             }
           depth += (c == '(' || c == '{') - (c == ')' || c == '}');
           // the sign of an exponent is none of a sum
-          const bool is_sum = (c == '+' || c == '-') &&
-                              std::tolower(expression[i - 1]) != 'e';
+          const char before = expression[i - 1];
+          const bool is_sum =
+            (c == '+' || c == '-') && before != 'e' && before != 'E';
           if (depth == 0 &&
               (is_sum || std::string("<>=?&|").find(c) != std::string::npos))
             return false;
@@ -299,7 +300,7 @@ namespace Debond
                                parts[1].length(),
                                "Press");
           }
-        else if (boost::to_lower_copy(code) == "end" && !path.empty())
+        else if (boost::iequals(code, "end", std::locale::classic()) && !path.empty())
           {
             // a table alone is its own value
             if (path.back() == "Translation z" && presses() &&

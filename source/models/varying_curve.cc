@@ -23,7 +23,7 @@ namespace Debond
     {
       return with_overrides(
         entries,
-        {"Task=simulate", "Output/Reference curve=", "Output/Console=quiet"});
+        {"Task=simulate", "Output/Reference curve=none", "Output/Console=quiet"});
     }
   } // namespace
 

@@ -71,7 +71,7 @@ compare_estimate(const std::string &what,
     "end\n"
     "subsection Interface\n"
     "  set Friction law = coulomb\n"
-    "  set Friction coefficient broken = 10\n"
+    "  set Friction coefficient = 10\n"
     "  set Normal stiffness = 1000\n"
     "end\n"
     "subsection Chuck\n"

@@ -253,7 +253,7 @@ main()
   check("Coulomb friction with mu = 10", R"(
     subsection Interface
       set Friction law = coulomb
-      set Friction coefficient broken = 10
+      set Friction coefficient = 10
     end)");
   check("Adaptive steps",
         linear + R"(

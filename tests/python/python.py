@@ -134,11 +134,11 @@ def check_drive():
 
     # a force that depends on what the run has answered
     force = {"Chuck/Press/Control": "force", "Load steps/Times": [0, 1], "Load steps/Steps": 20}
-    simulation = debond.Simulation(debond.Scene(text=coin, entries=force), drive={"Translation z": -50, "Rotation z": 0})
+    simulation = debond.Simulation(debond.Scene(text=coin, entries=force), drive={"Press": 50, "Rotation z": 0})
     simulation.advance()
     while not simulation.is_finished:
         row = simulation.row
-        simulation.advance({"Translation z": -50 - 0.5 * row["torque_Nmm"], "Rotation z": row["angle_deg"] + 0.2})
+        simulation.advance({"Press": 50 + 0.5 * row["torque_Nmm"], "Rotation z": row["angle_deg"] + 0.2})
     rows = simulation.result().rows
     check("a force that follows the torque", numpy.allclose(rows["force_N"][1:], 50 + 0.5 * rows["torque_Nmm"][:-1], rtol=1e-6))
 

@@ -131,7 +131,7 @@ check_six_loads(const std::vector<std::string> &motion)
 {
   std::cout << "six loads instead of six displacements" << std::endl;
   std::vector<std::string> overrides{"Interface/Friction law=coulomb",
-                                     "Interface/Friction coefficient broken=5"};
+                                     "Interface/Friction coefficient=5"};
   const auto               law = overrides;
   overrides.insert(overrides.end(), motion.begin(), motion.end());
   DrivenScene moved(main_scene, overrides);

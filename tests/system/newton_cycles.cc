@@ -18,10 +18,10 @@ subsection Implant
   set Cells    = 8, 1
 end
 subsection Interface
-  set Normal stiffness           = 2
-  set Friction law                = coulomb
-  set Friction coefficient broken = 0.5
-  set Friction starts at          = 1
+  set Normal stiffness     = 2
+  set Friction law         = coulomb
+  set Friction coefficient = 0.5
+  set Friction starts at   = 1
 end
 subsection Chuck
   subsection Press

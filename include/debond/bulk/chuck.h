@@ -52,7 +52,8 @@ namespace Debond
     bool                     over_angle = false; ///< the file; else over time
     std::vector<std::string> columns;            ///< empty: recognised
     double stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
-    /** Whether value and file are those of `Press', positive into the bone. */
+    /** Whether value, file and function are those of `Press', positive into the
+     *  bone. */
     bool into_bone = false;
     /** What the file says, over time or over the angle [deg]; null: none. */
     std::shared_ptr<const MonotoneCurve> table;

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Makes the numbers that stand in README.md, doc/*.md and tests/comparison/README.md
-between <!-- numbers: NAME --> and <!-- end -->, and the entries of doc/reference/parameters.md.
+"""Makes the numbers that stand in README.md, the pages of doc and tests/comparison/README.md
+between <!-- numbers: NAME --> and <!-- end -->, and the tables of doc/reference/parameters.md.
 
     doc/numbers.py                  all that take seconds, into the pages (some two minutes)
     doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: all names, cost, pages
     doc/numbers.py --check [NAME]   changes no page; exit code 1 if a page says something else
 
-Each function below with @numbers is one NAME, and returns what stands there. Runs go to output/numbers; --force runs studies again
+Each function below with @numbers is one NAME, and returns what stands there. Tables of more than a dozen rows go to
+doc/evidence/tables/NAME.csv, and a few of their rows to the page. Runs go to output/numbers; --force runs studies again
 that are there already. Programs: build/release/debond, or DEBOND. In a check numbers may differ by one unit of the last digit
 that the page prints. Seconds are those of one machine: they come from tables that are stored.
 """
@@ -33,6 +34,8 @@ LAYERED = ('Bone/Layer grading=1.5', 'Implant/Layer grading=1.5')
 THREE_PHASES = ('Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10')
 ADAPTIVE = ('Load steps/Steps=1, 10', 'Load steps/Adaptive=true')
 NAMES, options = {}, None
+TABLES = 'doc/evidence/tables/'
+CSV_FILES = {}  # name: text of the long tables that were made
 EXACT = {'parameters'}  # where a number that differs in its last digit is another one
 
 
@@ -141,6 +144,30 @@ def table(head, rows):
     return '\n' + ''.join('| %s |\n' % ' | '.join(str(cell) for cell in line) for line in lines)
 
 
+def csv_of(head, rows):
+    """The same for a file, without what makes code or bold text."""
+    def plain(cell):
+        cell = re.sub(r'`|[*][*]', '', str(cell).strip())
+        return '"%s"' % cell.replace('"', '""') if ',' in cell or '"' in cell else cell
+    return ''.join(','.join(plain(cell) for cell in row) + '\n' for row in [head] + rows)
+
+
+def link(name, rows):
+    return '\nAll %d rows: [tables/%s.csv](tables/%s.csv)\n' % (len(rows), name, name)
+
+
+def long_table(name, head, rows, shown):
+    """A table for a file of its own; in the page are the rows whose first cells are in shown, and a link."""
+    CSV_FILES[name] = csv_of(head, rows)
+    return table(head, [row for row in rows if tuple(map(str, row[:len(shown[0])])) in shown]) + link(name, rows)
+
+
+def rows_of_markdown(text):
+    """Head and rows of a table in Markdown."""
+    rows = [[cell.strip() for cell in line.strip()[1:-1].split('|')] for line in text.strip().split('\n') if line.startswith('|')]
+    return rows[0], rows[2:]
+
+
 def two_digits(value):
     """3900, 0.42"""
     return '%.0f' % float('%.1e' % value) if value >= 10 else '%.2g' % value
@@ -220,9 +247,9 @@ def slave_is_bone():
 def versions():
     lines = []
     for scene, link, stiffness, mu, a_s in (
-            ('prm/paper/data_set_1_calibrated.prm', '[calibrated](%s), the first scene', '622, 305', .586, 42),
-            (MAIN, '[coin_mode3](%s), the *main scene* of tests, studies and timings', '585, 585', .58, 22),
-            ('prm/paper/data_set_1_as_printed.prm', '[as printed](%s)', '1800, 1800', .58, 22)):
+            ('prm/paper/data_set_1_calibrated.prm', 'calibrated, the first scene: `%s`', '622, 305', .586, 42),
+            (MAIN, 'the *main scene* of tests and studies: `%s`', '585, 585', .58, 22),
+            ('prm/paper/data_set_1_as_printed.prm', 'as printed: `%s`', '1800, 1800', .58, 22)):
         result = run(scene)
         lines.append([link % scene, stiffness, mu, a_s, '%.1f, %.1f' % (result['T_max_Nmm'], result['T_inf_Nmm']),
                       '%.2f' % result['pressure_MPa']])
@@ -433,10 +460,10 @@ def foundation():
                      percent(result['difference_max'])])
     same = run(MAIN, *LINEAR)
     rows.append(['4.9 um', 585, '15 x 15 x 2', 'the same cells', percent(difference(run(MAIN, 'Model=foundation'), same))])
-    for penalty, force in ((585, 51.88), (1000, 82.8), (1800, 137.4)):
-        result = study('prm/verification/foundation.prm', 'Interface/Normal stiffness=%d' % penalty,
+    for stiffness, force in ((585, 51.88), (1000, 82.8), (1800, 137.4)):
+        result = study('prm/verification/foundation.prm', 'Interface/Normal stiffness=%d' % stiffness,
                        'Chuck/Press/Value=%g * min(t, 1)' % force)
-        rows.append(['%g N' % force, penalty, '30 x 30 x 2', 'the same cells', percent(result[1]['difference_max'])])
+        rows.append(['%g N' % force, stiffness, '30 x 30 x 2', 'the same cells', percent(result[1]['difference_max'])])
     return table(['pressed by', 'eps [MPa/mm]', 'stiffness from bone cells', 'against finite elements on', 'largest difference'], rows)
 
 
@@ -458,7 +485,6 @@ def calibrated():
             ('K = 0.75 T_max / theta_lin [N m/rad]', 'follows', (17.8, 23.2), 2, (), lambda row: row['initial_stiffness_Nmm_per_rad'] / 1000),
             ('E_fric = T_inf (10 degrees - theta_fric) [N mm]', 'follows', (5.7, 6.2), 2, (), lambda row: row['E_fric_Nmm']),
             ('W_adh = E_deb - E_fric [N mm]', 'follows', (1.4, 2.7), 2, (), lambda row: row['W_adh_Nmm']),
-            ('w*_adh = W_adh / (pi R^2) [N/m]', 'follows', (72, 138), 1, (), lambda row: row['w_adh_star_N_per_m']),
             ('debonding begins at the rim [deg]', 'met with a_s only', ('1.13 (text)', '-'), 2, (2,), lambda row: row['theta_debonding_deg']),
             ('theta_full, the last angle with 0.999 T_max [deg]', 'missed', ('1.13 (theta_max)', '2.02 (theta_max)'), 2, (1, 2, 4, 5), plateau_end),
             ('mean pressure [MPa]', 'missed', (2.6, 3.1), 3, (1, 2, 4, 5), lambda row: row['pressure_MPa']),
@@ -632,18 +658,6 @@ def baseline():
 
 
 @numbers('seconds')
-def timings():
-    seconds, lines = baseline(), []
-    for mesh in ('coarse', 'medium', 'fine', 'very fine'):
-        line = [mesh]
-        for steps, bodies in (('adaptive', 'linear'), ('adaptive', 'neo-hookean'), ('1000.0', 'linear'), ('1000.0', 'neo-hookean')):
-            both = [seconds.get((mesh, bodies, steps, threads)) for threads in (1, 2)]
-            line.append('-' if None in both else ' / '.join('%.2f' % s if s < 1 else ('%#.2g' % s).rstrip('.') for s in both))
-        lines.append(line)
-    return table(['mesh', 'linear, adaptive', 'Neo-Hookean, adaptive', 'linear, 1000 steps', 'Neo-Hookean, 1000 steps'], lines)
-
-
-@numbers('seconds')
 def neo_hooke_cost():
     seconds = baseline()
     ratios = [s / seconds[mesh, 'linear', steps, threads] for (mesh, bodies, steps, threads), s in seconds.items() if bodies != 'linear']
@@ -673,7 +687,9 @@ def calculix_quadratic_factor():
 
 @numbers('minutes')
 def stability():
-    return '\n' + subprocess.run(['doc/stability/stability.sh'], stdout=subprocess.PIPE, text=True, check=True).stdout
+    text = subprocess.run(['doc/stability/stability.sh'], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return long_table('stability', *rows_of_markdown(text), [
+        ('slip_direction', 'default'), ('slip_direction', 'previous-gap'), ('uniqueness', 'default'), ('chatter', 'bilinear-dense')])
 
 
 @numbers('minutes')
@@ -686,8 +702,9 @@ def auto():
     for name, row in zip(names + stiff, study('prm/verification/auto.prm') + study('prm/verification/auto_stiff.prm')):
         lines.append([name, '%.3g %%' % (100 * row['Load steps / Tolerance']), row['answer'].split(' and ')[0],
                       percent(row['error_estimate']), percent(row['difference_max']),
-                      '%.1f' % (row['error_estimate'] / row['difference_max']), '%.1f' % row['wall_seconds']])
-    return table(['scene', 'tolerance', 'answer', 'estimate', 'true error', 'estimate / true', 'seconds, all levels'], lines)
+                      '%.1f' % (row['error_estimate'] / row['difference_max'])])
+    return long_table('auto', ['scene', 'tolerance', 'answer', 'estimate', 'true error', 'estimate / true'], lines,
+                      [('main',), ('soft implant, 30 MPa',), ('180 000 MPa/mm',), ('1e6 MPa/mm',)])
 
 
 @numbers('minutes')
@@ -884,7 +901,7 @@ def largest_error(reference, curve, groups):
 
 @numbers('minutes')
 def adaptive_scenes():
-    press, twice = '-0.0049 * min(t, 1)', 'min(max(t - 1, 0), 1)'
+    press, twice = '0.0049 * min(t, 1)', 'min(max(t - 1, 0), 1)'
     mesh = ('Bone/Cells=12, 12, 3', 'Implant/Cells=4, 2') + LINEAR + LAYERED
     rigid = ('Bone/Material=rigid', 'Implant/Material=rigid', 'Implant/Cells=12, 2')
     turning = {'Translation x': '0.02 * ' + twice, 'Rotation z': '2 * max(t - 2, 0)'}
@@ -924,7 +941,8 @@ def adaptive_scenes():
             result = run(*scene, 'Load steps/Adaptive=true', 'Load steps/Steps=1' + ', 10' * phases, 'Load steps/Tolerance=' + tolerance)
             line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve'], groups) / float(tolerance))]
         lines.append(line)
-    return table(['12 x 12 x 3 and 4 x 4 x 2 cells, linear', '1e-2: rows', 'error', '1e-3: rows', 'error', '1e-4: rows', 'error'], lines)
+    return long_table('adaptive_scenes', ['12 x 12 x 3 and 4 x 4 x 2 cells, linear', '1e-2: rows', 'error', '1e-3: rows', 'error', '1e-4: rows', 'error'],
+                      lines, [('twist',), ('shear, then twist',), ('under a moment, to and fro: the angle',)])
 
 
 def study_of_splines(bone, implant, *changes):
@@ -988,9 +1006,9 @@ def errors_elsewhere(scenes, fine, choices):
         line = [name]
         for _, choice in choices:
             result = run(MAIN, *choice, *LINEAR, *changes)
-            line += [small(largest_error(reference, result['fine curve'], [FORCES, MOMENTS])), '%.2g s' % result['wall_seconds']]
+            line.append(small(largest_error(reference, result['fine curve'], [FORCES, MOMENTS])))
         lines.append(line)
-    return table(['scene'] + [column for name, _ in choices for column in (name, 'seconds')], lines)
+    return table(['scene'] + [name for name, _ in choices], lines)
 
 
 @numbers('minutes')
@@ -1075,8 +1093,8 @@ def n_unknowns(cells):
     return 3 * ((x + 1) * (y + 1) * (z - 1) + (x + 2) * (y + 2))
 
 
-def pair(rows, name, form=None, scale=1):
-    return ' / '.join(form % (scale * row[name]) if form else two_digits(scale * row[name]) for row in rows)
+def pair(rows, name, form):
+    return ' / '.join(form % row[name] for row in rows)
 
 
 @numbers('minutes')
@@ -1086,25 +1104,22 @@ def multigrid_sizes():
         repetitions = range(3 if n_unknowns(cells) < 1e6 else 1)  # the median of three, or what takes a minute
         rows = [sorted((run_on(ranks, 'Bone/Cells=' + cells, *TURN, *MULTIGRID, repetition=i) for i in repetitions),
                        key=lambda row: row['wall_seconds'])[len(repetitions) // 2] for ranks in (1, 2)]
-        for row in rows:
-            row['cycle'] = row['seconds_multigrid'] / row['multigrid_cycles']
         lines.append([cells.replace(', ', ' x '), '%d k' % round(n_unknowns(cells) / 1000), pair(rows, 'multigrid_most_cycles', '%d'),
-                      pair(rows, 'seconds_condensation'), pair(rows, 'cycle', '%.3g', 1000), '%.2f' % (rows[0]['wall_seconds'] / rows[1]['wall_seconds']),
-                      pair(rows, 'peak_memory_MB', '%.0f')])
-    return table(['cells', 'unknowns', 'cycles to 1e-8, one / two processes', 'K and set-up [s]', 'a cycle, with all of the iteration [ms]',
-                  'speed-up of the whole run by the second process', 'memory of a process [MB]'], lines)
+                      '%.2f' % (rows[0]['wall_seconds'] / rows[1]['wall_seconds']), pair(rows, 'peak_memory_MB', '%.0f')])
+    return table(['cells', 'unknowns', 'cycles to 1e-8, one / two processes', 'speed-up of the whole run by the second process',
+                  'memory of a process [MB]'], lines)
 
 
 @numbers('minutes')
 def multigrid_contrast():
     def cycles(*changes):
         return '%d' % run_on(1, 'Bone/Cells=40, 40, 10', *TURN, *MULTIGRID, *changes)['multigrid_most_cycles']
-    lines = [['penalty stiffness 585, 1800, 18 000, 180 000 MPa/mm',
+    lines = [['stiffness of the interface 585, 1800, 18 000, 180 000 MPa/mm',
               ', '.join(cycles('Interface/Normal stiffness=%d' % eps) for eps in (585, 1800, 18000, 180000))]]
     for eps, text in ((585, '585'), (18000, '18 000')):
         lines.append(['Coulomb friction of 0.4, 2, 10, turned by 5 degrees at once, ' + text + ' MPa/mm', ', '.join(
             cycles('Load steps/Times=0, 1, 1.5', 'Interface/Normal stiffness=%d' % eps, 'Interface/Friction law=coulomb',
-                   'Interface/Friction coefficient broken=%g' % mu) for mu in (0.4, 2, 10))])
+                   'Interface/Friction coefficient=%g' % mu) for mu in (0.4, 2, 10))])
     for name, where in (('cubes of 0.6 mm', 'sin(pi * x / 0.6) * sin(pi * y / 0.6) * sin(pi * z / 0.6) > 0'), ('a layer of 1 mm', 'z > -1'),
                         ('a layer of 1 mm, softer on top', 'z < -1')):
         lines.append(['modulus of 18 000 MPa and less by 10, 100, 1000: ' + name,
@@ -1164,36 +1179,6 @@ def multigrid_large():
         row['wall_seconds'] / 60, two_digits(row['peak_memory_MB'] / 1000), cells.replace(', ', ' x '), n_unknowns(cells) / 1e6)
 
 
-@numbers('minutes')
-def multigrid_model():
-    """Seconds of a whole curve on P processes: what is dealt out, what all of them do, and messages of an assumed network."""
-    measured = run_on(1, 'Bone/Cells=75, 75, 15', 'Bone/Solver=multigrid', *CURVE, *VARIES)
-    cycles = measured['multigrid_cycles']
-    of_all = measured['seconds_contact'] + measured['seconds_contact_tangent']
-    dealt_out = (measured['seconds_before_steps'] + measured['seconds_multigrid'] + measured['seconds_bulk'] -
-                 measured['seconds_contact_tangent']) / n_unknowns('75, 75, 15')
-    latency, bandwidth, last_level = 2e-6, 10e9, 1e-3
-    lines = []
-    for name, n in (('1.3 M', 1.3e6), ('10 M', 1e7)):
-        across = (5 * n / 3) ** (1 / 3)  # cells across a block of their shape
-        of_contact = 8 * 3 * 0.13 * across ** 2  # bytes of the unknowns under the implant
-        line = [name]
-        for processes in (1, 16, 64, 256, 1024):
-            n_levels = max(1, math.log(n / 2000, 20))
-            side = 3 * (across / 5) * across / math.sqrt(processes)  # unknowns on a side of a part
-            neighbours = n_levels * 8 * 4 * (latency + 8 * side / bandwidth)
-            sums = math.log2(processes) * (8 * 2 * latency + 2 * of_contact / bandwidth)
-            own = dealt_out * n / processes
-            seconds = own + of_all + cycles * (last_level + (neighbours + sums) * (processes > 1))
-            line.append('%.0f (%.0f %%)' % (seconds, 100 * own / seconds))
-        lines.append(line)
-    text = ('\nFrom the curve with 75 x 75 x 15 cells above: %.2g ms for each unknown of the bone, in %d cycles, are dealt out; %.2g s for points and their tangent are '
-            'not. Assumed: 1 ms in each cycle for the last level, which is gathered; on each level, of which there are log_20(n / 2000), eight exchanges with four neighbours of 2 us and 10 GB/s; eight '
-            'sums over all in an iteration, one of them of the unknowns under the implant. Seconds for the curve (share of them that is dealt out):\n'
-            ) % (1000 * dealt_out, cycles, of_all)
-    return text + table(['unknowns of the bone', '1 process', '16', '64', '256', '1024'], lines)
-
-
 @functools.lru_cache(None)
 def step_error(name):
     """A table of doc/studies/step_error.py, as text."""
@@ -1218,9 +1203,8 @@ def step_codes():
     rows, lines = step_error('codes.csv'), []
     for code in dict.fromkeys(row['code'] for row in rows):
         best = min((row for row in rows if row['code'] == code), key=lambda row: float(row['error']))
-        lines.append([code, best['steps'] + (' in all' if 'adaptive' in code else ' in each phase'), '%.2g' % float(best['seconds']),
-                      small(float(best['error']))])
-    return table(['code', 'steps', 'seconds', 'error'], lines)
+        lines.append([code, best['steps'] + (' in all' if 'adaptive' in code else ' in each phase'), small(float(best['error']))])
+    return table(['code', 'steps', 'error'], lines)
 
 
 @numbers('seconds')
@@ -1363,6 +1347,20 @@ def treat(page, wanted):
     return good, found
 
 
+def treat_table(name):
+    """The same for the file of a long table."""
+    path, new = TABLES + name + '.csv', CSV_FILES[name]
+    old = text_of(path) if os.path.exists(path) else ''
+    same = compare(name, old, new)
+    if options.check and not same:
+        print('%s is not what the program says, which is\n%s' % (path, new))
+    elif not same:
+        os.makedirs(TABLES, exist_ok=True)
+        with open(path, 'w', encoding='utf-8') as lines:
+            lines.write(new)
+    return same or not options.check
+
+
 def main():
     global options
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -1383,10 +1381,11 @@ def main():
         sys.exit('numbers.py: there is no %s: build the program first, or set DEBOND' % options.debond)
     wanted = options.names or [name for name, (_, cost) in NAMES.items() if options.all or cost == 'seconds']
     results = [treat(page, wanted) for page in pages()]
+    good = all([treat_table(name) for name in CSV_FILES])
     unused = set(NAMES) - set().union(*(found for _, found in results))
     if unused:
         sys.exit('numbers.py: no page has ' + ', '.join(sorted(unused)))
-    sys.exit(not all(good for good, _ in results))
+    sys.exit(not (good and all(good for good, _ in results)))
 
 
 if __name__ == '__main__':

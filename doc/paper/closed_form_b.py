@@ -3,7 +3,7 @@ measured curves, prm/paper/data/closed_form_b_data_set_[12].csv, and prints the 
 
     python3 doc/paper/closed_form_b.py [--print-only]
 
-theta_slide = theta_fric = 1.33 degrees of data set 2 is not printed but inferred: doc/reproduction.md, section Contradictions.
+theta_slide = theta_fric = 1.33 degrees of data set 2 is not printed but inferred: doc/evidence/reproduction.md, section Contradictions.
 """
 
 import math

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs every scene of prm/stability with every method that its comments list, and prints the table of doc/stability.md; a line on
+# Runs every scene of prm/stability with every method that its comments list, and prints the table of doc/evidence/stability.md; a line on
 # the error output says so if an outcome is not the expected one. Some three minutes. Runs stay in output/stability/runs.
 #   doc/stability/stability.sh [--draw] [--publish] [SCENE ...]
 #     --draw    make the pictures output/stability/*.png and *.svg instead (some two minutes)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What steps lose where friction turns: doc/studies/step_error.py [--force] [--publish]
 
-Runs the scenes of the chart of doc/speed_and_accuracy.md in steps of several sizes, writes output/step_error/order.csv (errors at the
+Runs the scenes of the chart of doc/evidence/speed_and_accuracy.md in steps of several sizes, writes output/step_error/order.csv (errors at the
 ends of the steps) and codes.csv (errors of the curves as they are drawn, and seconds less those of an empty process) and draws output/step_error.png. Some ten minutes.
 CalculiX takes part where ccx and calculix_input are. --force runs again what is there; --publish copies the pictures to doc/images.
 Other programs: DEBOND, CALCULIX_INPUT, CCX."""

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Error over seconds for interfaces from soft to stiff: picture and table of doc/speed_and_accuracy.md.
+"""Error over seconds for interfaces from soft to stiff: picture and table of doc/evidence/stiffness.md.
 
     doc/studies/stiffness.py                # runs prm/studies/stiffness.prm, one variant at a time on one thread (some minutes), and draws
     doc/studies/stiffness.py --draw         # runs nothing, draws what is there
@@ -88,10 +88,7 @@ def gather():
 
 
 def publish(table):
-    page = Path('doc/speed_and_accuracy.md')
-    before, rest = page.read_text().split('<!-- stiffness: doc/studies/stiffness.py --publish -->\n')
-    after = rest[rest.index('<!-- end of stiffness -->'):]
-    page.write_text(before + '<!-- stiffness: doc/studies/stiffness.py --publish -->\n' + table + '\n' + after)
+    subprocess.run(['doc/studies/publish.py', 'doc/evidence/stiffness.md', 'stiffness', 'all:1,3,5,10,12'], input=table, text=True, check=True)
     for name in ('stiffness.png', 'stiffness.svg'):
         shutil.copy(RESULTS / name, 'doc/images')
 

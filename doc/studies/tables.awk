@@ -1,4 +1,4 @@
-# Tables for doc/speed_and_accuracy.md from output/studies/work_precision.csv: splines, what each factor does on two meshes of
+# Tables for doc/evidence/speed_and_accuracy.md from output/studies/work_precision.csv: splines, what each factor does on two meshes of
 # trilinear cells, and the fastest choice for a wanted accuracy.
 BEGIN { FS = "," }
 NR == 1 { next }

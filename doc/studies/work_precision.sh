@@ -5,7 +5,7 @@
 #   doc/studies/work_precision.sh [--force] [--draw] [--publish]
 #     --force   run again what is there already (without it an interrupted study goes on where it was)
 #     --draw    run nothing, draw what is there
-#     --publish copy the pictures to doc/images and the tables into doc/speed_and_accuracy.md
+#     --publish copy the pictures to doc/images and the tables into doc/evidence
 # Other codes: OTHER_CODES=FILE.csv (default prm/studies/data/other_codes.csv, if it is there) with the columns
 # code,label,seconds,error_torque for the scene of prm/studies/work_precision_coulomb.prm, which
 # tests/comparison/work_precision.sh --curve FILE.csv writes; its rows of debond are not drawn.
@@ -76,11 +76,6 @@ if [[ $publish == true ]]; then
   for picture in work_precision work_precision_local work_precision_codes; do
     for format in png svg; do cp $results/$picture.$format doc/images/; done
   done
-  page=doc/speed_and_accuracy.md
-  awk -v tables=$results/work_precision.md '
-    /^<!-- tables/ { print; while ((getline line < tables) > 0) print line; skip = 1 }
-    /^<!-- end of tables/ { skip = 0 }
-    !skip { if ($0 !~ /^<!-- tables/) print }' $page > $page.partial
-  mv $page.partial $page
-  echo "Published in doc/images and $page"
+  doc/studies/publish.py doc/evidence/speed_and_accuracy.md work_precision splines+ meshes factors fastest+ front < $results/work_precision.md
+  echo "Published in doc/images and doc/evidence"
 fi

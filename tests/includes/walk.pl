@@ -1,6 +1,7 @@
 #!/usr/bin/perl
-# Checks the tables of doc/developers/walk.md and equations.md: every function that they name is in the file beside it,
-# with its class; and what the text of walk.md names as `name` exists in the sources.
+# Checks doc/developers/walk.md and equations.md: every function that they name with a file, `function` (`path`) in
+# walk.md and in a row of the table of equations.md, is there, with its class; each part of walk.md names one; and
+# what its parts name as `name` exists in the sources.
 #   walk.pl DIRECTORY walk.md|equations.md
 use strict;
 use warnings;
@@ -22,34 +23,45 @@ sub text_of
 }
 my $text = text_of("doc/developers/$page");
 
-# | 13 | (what it is |) `Class::function` | `path` |
-my %numbers;
-while ($text =~ m{^\| (\d[\d, to]*) \|(?: [^|]* \|)? `(?:(\w+)::)?(\w+)` \| `(\S+)` \|$}mg)
+sub check_function
 {
-  my ($row, $class, $function, $path) = ($1, $2, $3, $4);
-  while ($row =~ m{(\d+)(?: to (\d+))?}g) { ++$numbers{$_} for $1 .. $2 // $1 }
+  my ($place, $name, $path) = @_;
+  my ($class, $function) = $name =~ m{^(?:(\w+)::)?(\w+)$};
   my $source = text_of($path);
-  mistake("$row: $path has no function $function.") if $source !~ m{^ *(?:(?:\w+ )*\w+::|inline )?\Q$function\E\(}m;
-  mistake("$row: $path has no $class.") if defined $class && $source !~ m{\b\Q$class\E\b};
+  mistake("$place: $path has no function $function.") if $source !~ m{^ *(?:(?:\w+ )*\w+::|inline )?\Q$function\E\(}m;
+  mistake("$place: $path has no $class.") if defined $class && $source !~ m{\b\Q$class\E\b};
 }
 
 if ($page eq 'walk.md')
 {
-  mistake("the parts of the table are " . join(' ', sort { $a <=> $b } keys %numbers) . ".")
-    if join(' ', sort { $a <=> $b } keys %numbers) ne join(' ', 1 .. 10);
+  my @parts = $text =~ m{^(## .*?)(?=^## |\z)}msg;
   my $all = '';
   for my $path (glob("$root/source/*/*.cc $root/include/debond/*/*.h")) { $all .= text_of(substr $path, 1 + length $root); }
-  my ($parts) = $text =~ m{^(## 1\. .*)}ms;
-  mistake("there is no part 1.") unless defined $parts;
-  while (($parts // '') =~ m{`((?:\w+::)?\w+)`}g)
+  for my $n (1 .. 10)
   {
-    my ($class, $name) = $1 =~ m{^(?:(\w+)::)?(\w+)$};
-    next if $all =~ m{\b\Q$name\E\b} && (!defined $class || $all =~ m{\b(?:class|struct) \Q$class\E\b});
-    mistake("the sources have no $1.");
+    my ($part) = grep { m{^## $n\. } } @parts;
+    if (!defined $part) { mistake("there is no part $n."); next; }
+    my @pairs = $part =~ m{`([\w:]+)`\s\(`(\S+)`\)}g;
+    mistake("part $n names no function with its file.") unless @pairs;
+    while (my ($name, $path) = splice @pairs, 0, 2) { check_function("part $n", $name, $path); }
+    while ($part =~ m{`(?:(\w+)::)?(\w+)`}g)
+    {
+      my ($class, $name) = ($1, $2);
+      next if $all =~ m{\b\Q$name\E\b} && (!defined $class || $all =~ m{\b(?:class|struct) \Q$class\E\b});
+      mistake("part $n: the sources have no " . (defined $class ? "$class\::" : '') . "$name.");
+    }
   }
 }
-else # from 1 to 50, which the paper has
+else
 {
+  # | 13 | what it is | `Class::function` | `path` |; from 1 to 50, which the paper has
+  my %numbers;
+  while ($text =~ m{^\| (\d[\d, to]*) \| [^|]* \| `([\w:]+)` \| `(\S+)` \|$}mg)
+  {
+    my ($row, $name, $path) = ($1, $2, $3);
+    while ($row =~ m{(\d+)(?: to (\d+))?}g) { ++$numbers{$_} for $1 .. $2 // $1 }
+    check_function($row, $name, $path);
+  }
   my @missing = grep { !$numbers{$_} } 1, 2, 8, 11 .. 14, 17 .. 20, 26, 28 .. 37, 49, 50;
   mistake("no row for @missing.") if @missing;
 }

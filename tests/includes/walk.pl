@@ -60,7 +60,7 @@ else
   {
     my ($row, $name, $path) = ($1, $2, $3);
     while ($row =~ m{(\d+)(?: to (\d+))?}g) { ++$numbers{$_} for $1 .. $2 // $1 }
-    check_function($row, $name, $path);
+    check_function($row, $name, ($path =~ m{\.h$} ? 'include/debond/' : 'source/') . $path);
   }
   my @missing = grep { !$numbers{$_} } 1, 2, 8, 11 .. 14, 17 .. 20, 26, 28 .. 37, 49, 50;
   mistake("no row for @missing.") if @missing;

@@ -1,10 +1,11 @@
 #!/usr/bin/perl
-# Checks the includes of the sources and the table of rooms in doc/solution.md, and prints everything that is wrong.
+# Checks the includes of the sources, and what doc/developers/source.md and source.csv say of the folders, and prints
+# everything that is wrong.
 #   includes.pl DIRECTORY ROOM...
-# DIRECTORY holds source/ROOM, include/debond/ROOM, source/main.cc and doc/solution.md. A file may include headers of its
+# DIRECTORY holds source/ROOM, include/debond/ROOM, source/main.cc and doc/developers. A file may include headers of its
 # own room and of those named before it, main.cc those of any. A header and a source of the same name, taken together,
-# must not need themselves through others. In the table each room has a row, in the same order, which names the files of
-# the room, without suffix, and nothing else, in backticks; `*_x` names all that end so.
+# must not need themselves through others. The table of source.md has a row for each room, in the same order; source.csv
+# has a row for each file, without suffix: room, file, content.
 use strict;
 use warnings;
 
@@ -71,27 +72,30 @@ sub visit
 }
 visit($_) for sort keys %needs;
 
-# The table: | `room` | text with `files` |
+# The table: | `room` | text |
 my ($in_section, @rows, %named);
-for (lines_of('doc/solution.md'))
+for (lines_of('doc/developers/source.md'))
 {
-  $in_section = m{^## The rooms of the source} if m{^## };
-  next unless $in_section && m{^\| `(\w+)` \|(.*)};
-  my ($room, $text) = ($1, $2);
-  push @rows, $room;
-  for my $name ($text =~ m{`([\w*]+)`}g)
-  {
-    my $pattern = $name =~ s{\*}{\\w*}gr;
-    my @meant = $name =~ m{\*} ? grep { m{^$pattern$} } keys %{$files{$room}} : ();
-    $named{$room}{$_} = 1 for @meant ? @meant : $name;
-  }
+  $in_section = m{^## Folders in order} if m{^## };
+  push @rows, $1 if $in_section && m{^\| `(\w+)` \|};
 }
-push @mistakes, "doc/solution.md: the rooms of the table are @rows, those of the sources @rooms." if "@rows" ne "@rooms";
+push @mistakes, "doc/developers/source.md: the folders of the table are @rows, those of the sources @rooms."
+  if "@rows" ne "@rooms";
+
+# The files: room,file,content
+for (lines_of('doc/developers/source.csv'))
+{
+  next if m{^folder,file,content$};
+  if (m{^(\w+),(\w+),\S}) { $named{$1}{$2} = 1 }
+  else { push @mistakes, "doc/developers/source.csv: no row of folder, file and content: $_" =~ s{\n}{}r }
+}
 for my $room (@rooms)
 {
-  push @mistakes, "doc/solution.md: the row of $room lacks $_." for grep { !$named{$room}{$_} } sort keys %{$files{$room}};
-  push @mistakes, "doc/solution.md: $room holds no $_." for grep { !$files{$room}{$_} } sort keys %{$named{$room}};
+  push @mistakes, "doc/developers/source.csv: there is no row for $_ of $room." for grep { !$named{$room}{$_} } sort keys %{$files{$room}};
+  push @mistakes, "doc/developers/source.csv: $room holds no $_." for grep { !$files{$room}{$_} } sort keys %{$named{$room}};
+  delete $named{$room};
 }
+push @mistakes, "doc/developers/source.csv: there is no folder $_." for sort keys %named;
 
 print "$_\n" for @mistakes;
 exit(@mistakes ? 1 : 0);

@@ -1,39 +1,68 @@
 #!/usr/bin/perl
-# Checks doc/walk.md: every function that its table names is defined in the file beside it, and what its text names as
-# `name` exists in the sources.
-#   walk.pl DIRECTORY
+# Checks doc/developers/walk.md and equations.md: every function that they name with a file, `function` (`path`) in
+# walk.md and in a row of the table of equations.md, is there, with its class; each part of walk.md names one; and
+# what its parts name as `name` exists in the sources.
+#   walk.pl DIRECTORY walk.md|equations.md
 use strict;
 use warnings;
 
-my $root = shift or die "usage: walk.pl DIRECTORY\n";
+my ($root, $page) = @ARGV;
+die "usage: walk.pl DIRECTORY walk.md|equations.md\n" unless defined $page && $page =~ m{^(walk|equations)\.md$};
+my $wrong = 0;
+sub mistake
+{
+  print "doc/developers/$page: @_\n";
+  $wrong = 1;
+}
 sub text_of
 {
   my ($path) = @_;
-  open my $file, '<', $path or do { print "doc/walk.md: there is no $path.\n"; exit 1 };
+  open my $file, '<', "$root/$path" or do { mistake("there is no $path."); return '' };
   local $/;
   return scalar <$file>;
 }
-my $walk = text_of("$root/doc/walk.md");
-my $wrong = 0;
-my $stations = 0;
-while ($walk =~ m{^\| (\d+) \| `([\w:]+)` \| \[(\S+)\]\(\.\./\3\) \|$}mg)
+my $text = text_of("doc/developers/$page");
+
+sub check_function
 {
-  my ($station, $function, $path) = ($1, $2, $3);
-  ++$stations;
-  next if text_of("$root/$path") =~ m{^  \Q$function\E\(}m;
-  print "doc/walk.md: station $station: $path defines no $function.\n";
-  $wrong = 1;
+  my ($place, $name, $path) = @_;
+  my ($class, $function) = $name =~ m{^(?:(\w+)::)?(\w+)$};
+  my $source = text_of($path);
+  mistake("$place: $path has no function $function.") if $source !~ m{^ *(?:(?:\w+ )*\w+::|inline )?\Q$function\E\(}m;
+  mistake("$place: $path has no $class.") if defined $class && $source !~ m{\b\Q$class\E\b};
 }
-my $all = '';
-for my $path (glob("$root/source/*/*.cc $root/include/debond/*/*.h")) { $all .= text_of($path); }
-my ($text) = $walk =~ m{(\*\*1\..*)}s;
-while ($text =~ m{`((?:\w+::)?\w+)`}g)
+
+if ($page eq 'walk.md')
 {
-  my ($class, $name) = $1 =~ m{^(?:(\w+)::)?(\w+)$};
-  next if $name =~ m{\.csv$};
-  next if $all =~ m{\b\Q$name\E\b} && (!defined $class || $all =~ m{\b(class|struct) \Q$class\E\b});
-  print "doc/walk.md: the sources have no $1.\n";
-  $wrong = 1;
+  my @parts = $text =~ m{^(## .*?)(?=^## |\z)}msg;
+  my $all = '';
+  for my $path (glob("$root/source/*/*.cc $root/include/debond/*/*.h")) { $all .= text_of(substr $path, 1 + length $root); }
+  for my $n (1 .. 10)
+  {
+    my ($part) = grep { m{^## $n\. } } @parts;
+    if (!defined $part) { mistake("there is no part $n."); next; }
+    my @pairs = $part =~ m{`([\w:]+)`\s\(`(\S+)`\)}g;
+    mistake("part $n names no function with its file.") unless @pairs;
+    while (my ($name, $path) = splice @pairs, 0, 2) { check_function("part $n", $name, $path); }
+    while ($part =~ m{`(?:(\w+)::)?(\w+)`}g)
+    {
+      my ($class, $name) = ($1, $2);
+      next if $all =~ m{\b\Q$name\E\b} && (!defined $class || $all =~ m{\b(?:class|struct) \Q$class\E\b});
+      mistake("part $n: the sources have no " . (defined $class ? "$class\::" : '') . "$name.");
+    }
+  }
 }
-if ($stations != 10) { print "doc/walk.md: $stations stations.\n"; $wrong = 1; }
+else
+{
+  # | 13 | what it is | `Class::function` | `path` |; from 1 to 50, which the paper has
+  my %numbers;
+  while ($text =~ m{^\| (\d[\d, to]*) \| [^|]* \| `([\w:]+)` \| `(\S+)` \|$}mg)
+  {
+    my ($row, $name, $path) = ($1, $2, $3);
+    while ($row =~ m{(\d+)(?: to (\d+))?}g) { ++$numbers{$_} for $1 .. $2 // $1 }
+    check_function($row, $name, ($path =~ m{\.h$} ? 'include/debond/' : 'source/') . $path);
+  }
+  my @missing = grep { !$numbers{$_} } 1, 2, 8, 11 .. 14, 17 .. 20, 26, 28 .. 37, 49, 50;
+  mistake("no row for @missing.") if @missing;
+}
 exit $wrong;

@@ -389,8 +389,8 @@ namespace Debond
             << chuck.position()[ChuckComponent::rotation_z] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: " << result.why;
     if (scene.load_steps.follow_path)
-      message << ". A path may end at a limit point, as doc/solution.md says "
-                 "(Following the path)";
+      message << ". A path may end at a limit point, see "
+                 "doc/explanation/stability.md (Following the path)";
     else if (!chuck.unknowns().empty() && result.interface.n_closed > 0)
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "

@@ -329,7 +329,7 @@ namespace Debond
              " % of its face each, which are too coarse for so stiff an "
              "interface: forces and moments may ripple by some " +
              to_text(100. * ripple, 2) +
-             " % from cell to cell. Finer Bone / Cells, or a smaller Penalty "
+             " % from cell to cell. Finer Bone / Cells, or a smaller Normal "
              "stiffness");
       const double R   = 0.5 * implant.width(d),
                    off = std::max(std::abs(*most), std::abs(*least));
@@ -338,7 +338,7 @@ namespace Debond
            "cells off the rim",
            entry + " moves the implant " + to_text(off, 3) +
              " mm from where the cells of the bone are fitted to its rim; "
-             "beyond they are coarse. For such a way expected equal "
+             "beyond they are coarse. For such a displacement expected equal "
              "Bone / Cells");
       const bool over_edge = std::max(*most, -*least) + 0.5 * implant.width(d) >
                              0.5 * bone.width(d) * (1. + 1e-9);

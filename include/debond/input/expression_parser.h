@@ -13,7 +13,7 @@ namespace Debond
 
   /**
    * Reads an expression in muParser's language, with the functions that
-   * doc/parameters.md lists, in @p variables, names separated by commas.
+   * doc/reference/scene_file.md lists, in @p variables, names separated by commas.
    * Constants are `pi` and `R` = @p radius [mm]. Throws InputError with the
    * expression and the parser's own words if it is invalid.
    *

@@ -11,7 +11,8 @@ namespace Debond
   {
     // A bond with strength in tension, exponential, irreversible, and with
     // friction of its own: after Immel, Nguyen, Haiat and Sauer (2022) and
-    // Mergel, Scheibert and Sauer (2021). doc/model.md, Adhesive interface.
+    // Mergel, Scheibert and Sauer (2021). doc/explanation/adhesion.md,
+    // Adhesive.
     //
     //   sigma_e(x) = t_0 x/g_0 exp(1 - x/g_0)    envelope of the pull
     //   d(kappa) = 1 up to g_0, then sigma_e(kappa)/t_0

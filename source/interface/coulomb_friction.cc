@@ -113,8 +113,9 @@ namespace Debond
       // The largest slope that is still ahead of a point [1/mm]: pi / (4 a_s
       // b_s) half way down, at (1 + b_s) a_s, less after that. It gives the
       // bound of local uniqueness, p / eps_t < 4 a_s b_s / (pi phi_0 (mu_ub -
-      // mu_b)) (doc/model.md). A point before the middle is judged by the
-      // middle already, so that a large step does not jump over it unnoticed.
+      // mu_b)) (doc/explanation/stability.md). A point before the middle is
+      // judged by the middle already, so that a large step does not jump over
+      // it unnoticed.
       //
       // A short fall is a brittle bond. The torque of the main scene falls by 1
       // N m/rad at most, far less than any machine is stiff; with a_s = 0.005

@@ -69,7 +69,7 @@ namespace Debond
 
 
   // Six: with splines the error of five is as large as that of the bulk, but
-  // where elements are small at the rim (doc/speed_and_accuracy.md).
+  // where elements are small at the rim (doc/evidence/speed_and_accuracy.md).
   unsigned int
   InterfaceParameters::points_per_element(const BodyParameters &bone,
                                           const BodyParameters &implant) const

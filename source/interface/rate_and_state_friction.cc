@@ -13,7 +13,7 @@
 // eps_t being in series with the rest. On a softer one disturbances grow until
 // the speed is infinite, and there is no quasi-static solution: the run warns
 // of a jump or ends. `Interface / Viscosity' bounds the speed, and the implant
-// sticks and slips in turns (doc/model.md).
+// sticks and slips in turns (doc/explanation/interface.md).
 //
 // The time steps are what such a law costs. They are implicit and of first
 // order, and damp what oscillates with the frequency omega by omega^2 dt/4:
@@ -146,7 +146,7 @@ namespace Debond
       //
       // This asks for the distance of the step, unlike laws of g_s alone: what
       // is ahead depends on speeds that are not known yet. Where it exceeds
-      // eps_t / p the step is halved (doc/model.md).
+      // eps_t / p the step is halved (doc/explanation/interface.md).
       double
       steepest_fall(const FrictionState &start,
                     const double         distance) const override

@@ -20,9 +20,9 @@ namespace Debond
   {
     // A scene that needs more memory than there is would be killed by the
     // system after minutes, without a word. So the need is estimated first. It
-    // is done before the first mesh is made, from sizes alone (doc/solution.md,
-    // Memory). What follows is the `setup_system' of a step of deal.II, timed
-    // as one section.
+    // is done before the first mesh is made, from sizes alone
+    // (doc/explanation/solution.md, Threads, memory and checks). What follows
+    // is the `setup_system' of a step of deal.II, timed as one section.
     CoupledSystem
     build(const Scene              &scene,
           std::shared_ptr<BodyPair> bodies,

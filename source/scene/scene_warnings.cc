@@ -79,8 +79,8 @@ namespace Debond
                  to_text(scene.implant.young_modulus) +
                  " MPa: are they swapped?");
           // A trilinear cell cannot bend without a change of its volume, which
-          // a nearly incompressible material resists. Splines can: doc/
-          // speed_and_accuracy.md, Other scenes.
+          // a nearly incompressible material resists. Splines can:
+          // doc/evidence/speed_and_accuracy.md, Other scenes.
           note(!body.is_rigid() && body.element == ElementKind::trilinear &&
                  body.poisson_ratio > 0.45,
                name + "locking",
@@ -303,7 +303,8 @@ namespace Debond
 
     // What carries and what does not changes in steps where the border of the
     // contact goes over cells and points, so that forces and moments ripple.
-    // Measured ripples of moments are below these estimates: doc/stability.md.
+    // Measured ripples of moments are below these estimates:
+    // doc/evidence/stability.md.
     void
     judge_crossing(const Scene               &scene,
                    const unsigned int         d,

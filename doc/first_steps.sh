@@ -218,7 +218,7 @@ END
   peak=$(number output/my_implant/summary.json T_max_Nmm)
   ratio() { awk -v peak="$peak" "$1" script.log; }
   near "T_max from Python over that of the program" "$(ratio '/^T_max/ { print $2 / peak }')" 1 0.001
-  # a tenth more mu_ub, a tenth more T_max: doc/tutorial.md
+  # a tenth more mu_ub, a tenth more T_max: doc/tutorial/your_test.md
   near "T_max with a tenth more mu_ub over T_max" "$(ratio '/^mu_ub 0.66/ { print $4 / peak }')" 1.1 0.5
   used=$(python3 -c 'import _debond; print(_debond.__file__)')
   [[ $used == "${PYTHONPATH:-/usr/lib/python3/dist-packages}"/* ]] || fail "Python has used $used"
@@ -232,5 +232,5 @@ Everything was right. Open in a browser:
   $PWD/output/my_fit/report.html
 in ParaView:
   $PWD/output/data_set_1_calibrated/interface.pvd
-and change my_implant.prm, my_fit.prm and my_script.py there. The next thing to read is doc/tutorial.md.
+and change my_implant.prm, my_fit.prm and my_script.py there. The next thing to read is doc/tutorial/index.md.
 END

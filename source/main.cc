@@ -300,7 +300,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       refuse_usage(
         "the variants of a study are processes of one machine: leave "
         "out mpirun, or deal them out to many machines in Python "
-        "(debond.run_many, doc/python.md)");
+        "(debond.run_many, doc/howto/python.md)");
     // All variants are read before the first one runs, so that a mistake in the
     // last of them shows at once.
     if (arguments.check)
@@ -397,8 +397,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   // files, to the last bit, as if it never had been.
   //
   // Friction depends on the path, so that the state at a time cannot be found
-  // again without the steps before it; doc/checkpoints.md says what is kept of
-  // them.
+  // again without the steps before it; see
+  // doc/howto/resume.md.
   void
   resume(const Arguments &arguments)
   {

@@ -5,8 +5,8 @@
 
 If the state of a point does not depend on its neighbours, a point at the distance r from the axis with the initial bonding
 phi_0 carries t = lambda (r theta - g_s) <= mu(g_s) p, whatever the pattern (closed form with a compliant foundation,
-doc/model.md), and T = sum of r t dA over all points. Pressure p and stiffness lambda of interface and bodies are those of
-the run, summary.json; phi_0 is phi at the first of the Profile angles, which must come before debonding begins.
+doc/explanation/closed_forms.md), and T = sum of r t dA over all points. Pressure p and stiffness lambda of
+interface and bodies are those of the run, summary.json; phi_0 is phi at the first of the Profile angles, which must come before debonding begins.
 """
 import csv
 import json

@@ -8,7 +8,7 @@ on that of xvfb-run (Debian: xvfb).
 
 The face is seen from above, through the implant, with +x to the right and +y up, as it lay at the start; with --turned as it
 lies at that angle. A field has the same colours in all columns and for all directories. The pictures are those of
-interface.pvd, so angles are those at which the run wrote files: doc/results.md says how to choose them. It holds what lies
+interface.pvd, so angles are those at which the run wrote files: doc/howto/paraview.md says how to choose them. It holds what lies
 between the quadrature points of the run: where the front shows corners, take more points.
 """
 

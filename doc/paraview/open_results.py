@@ -131,7 +131,7 @@ def choose(frames, wanted, by_time, directory):
         if abs(found - value) > 0.01 * abs(value) + 1e-6:
             there = ", ".join("%.4g" % v for v in sorted({f.time if by_time else f.angle for f in frames}))
             raise Mistake("%s: no file at %s %.4g; there are %s. A phase of Load steps / Times that ends there makes one "
-                          "(doc/results.md)" % (directory, "time" if by_time else "angle", value, there))
+                          "(doc/howto/paraview.md)" % (directory, "time" if by_time else "angle", value, there))
         chosen.append(frame)
     return chosen
 

@@ -82,7 +82,7 @@ def _fitted_scene(done, experiment, directory, n):
     values = _debond.Scene(entries, "fitted.prm", _debond.Team(0)).values
     more = ["Task=simulate", "Output/Directory=" + os.path.join(directory, _numbered("fitted", "", experiment.number, n))]
     if any(experiment.changes(done.values)[1].values()):
-        more.append(f"Title={values['Title'] or 'Fit to ' + values['Output / Reference curve']}, without the rig")
+        more.append(f"Title={values['Title'] or 'Fit to ' + values['Output / Reference curve']}, without the test machine")
     found = (f"  {name} = {value:.6g} (95 %: {interval_text(done, j)})"
              for j, (name, value) in enumerate(zip(done.names, done.values)))
     comment = [f"Fitted by debond {_debond.version}", *found,

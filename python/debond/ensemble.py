@@ -1,7 +1,7 @@
 """Statistics over the variants of a finished study that differ by chance only, in the seed of their random patterns.
 
 Reads study.csv, and summary.json and the curve of each variant; writes ensemble.csv and ensemble_summary.csv, which
-doc/results.md describes.
+doc/reference/results.md describes.
 """
 
 import io

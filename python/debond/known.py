@@ -7,6 +7,7 @@ import _debond
 
 from .errors import RunError, SceneError
 from .experiment import RIG, Experiment
+from .measurement import given
 
 # Entries of a scene, and by what each of them is changed: a factor, or 0: a part of the angle or torque of the peak.
 _FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Outer radius", "Interface / Interference", "Bone / Young modulus", "Implant / Young modulus",
@@ -32,7 +33,7 @@ def _changes(fit):
     values, held = experiment.values, set().union(*(problem.unknowns.entries(e.number, fit.values) for e in problem.done))
     result = []
     for entry in _FACTORS:
-        text = values.get(entry, "")
+        text = given(values.get(entry, ""))
         if entry in held or not text or _is_zero(text):
             continue
         changed = f"({text}) * 1.1" if "Chuck" in entry or entry.endswith("Interference") else repr(1.1 * float(text))

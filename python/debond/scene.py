@@ -83,7 +83,7 @@ def sample_law(law: Callable[[float], float], longest: float, tolerance: float =
         raise SceneError(f"law: distance {longest}: expected the sliding distance [mm] after which phi is constant, above 0")
     points = {slip: phi(slip) for slip in numpy.linspace(0, longest, 33)}
     if abs(points[0] - 1) > 1e-12:
-        raise SceneError(f"law: phi(0) = {points[0]:g}: expected 1, the whole bond; Initial bonding makes it less")
+        raise SceneError(f"law: phi(0) = {points[0]:g}: expected 1, the whole bond; Bonding degree makes it less")
     intervals = list(zip(sorted(points)[:-1], sorted(points)[1:]))
     while intervals and len(points) < 2000:
         a, b = intervals.pop()

@@ -9,7 +9,7 @@
 // paper uses the Neo-Hookean law, Eq. (1), for both bodies. Their strains are
 // about 1e-3 in the body's own frame, so that the Neo-Hookean law changes
 // nothing that is visible in the torque, and takes up to four times as long
-// (doc/speed_and_accuracy.md). Both have the same K at rest.
+// (doc/evidence/speed_and_accuracy.md). Both have the same K at rest.
 namespace Debond
 {
   namespace

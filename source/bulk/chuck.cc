@@ -59,27 +59,26 @@ namespace Debond
                  const std::string        &columns,
                  EntryTable               &table)
     {
-      table.add("File",
-                component.file,
-                Allowed::text("the name of a CSV file", false)
-                  .or_word_for("none", ""),
-                "Table of values over time or angle, as an instrument or a "
-                "spreadsheet writes it, or the torque.csv of a run, with two "
-                "rows or more and monotone cubics between them. It has to hold "
-                "all times, or all angles, of the scene. The path is relative "
-                "to the working directory.");
+      table.add(
+        "File",
+        component.file,
+        Allowed::text("the name of a CSV file", false).or_word_for("none", ""),
+        "Table of values over time or angle: a file from an instrument or "
+        "spreadsheet, or the torque.csv of a run, relative to the working "
+        "directory. It needs two rows at least, and must cover all times, or "
+        "angles, of the scene; between rows there are monotone cubics. With "
+        "an angle (deg, rad) in place of the time, values are over the angle "
+        "that Rotation z prescribes. `none': no table.");
       table.add(
         "File columns",
         component.columns,
         Allowed::list(Allowed::text("a column", false), 2, 2)
           .or_word_for("auto", ""),
-        "Which columns of File are time or angle, and value, each by its name "
-        "there or its number from 1, with a unit where the file has none: 1 "
-        "[deg], force [kN]; a minus before the unit, [-kN], turns the sign. An "
-        "angle (deg, rad) is that which Rotation z prescribes. `auto': time, "
-        "or else angle_deg, and " +
-          columns +
-          " as Control says, else the only columns with such units.");
+        "Columns of File with time or angle, and with the value: each by "
+        "name or by number from 1, with a unit if the file has none: 1 "
+        "[deg], force [kN], or 1 [s], torque [N m]; a minus before the unit, "
+        "[-kN], turns the sign. `auto': time, or else angle_deg, and " +
+          columns + " as Control says, else the only columns with such units.");
     }
   } // namespace
 
@@ -100,8 +99,9 @@ namespace Debond
       own.loaded,
       Allowed::choice(rotation ? "angle | moment" : "displacement | force"),
       std::string("What Value means: ") +
-        (rotation ? "`angle' [deg], or the `moment' [N mm] that does the work "
-                    "along it, of the chuck, positive about +" :
+        (rotation ? "`angle' [deg], or the conjugate `moment' [N mm] "
+                    "(doc/explanation/bodies.md), of the chuck, positive "
+                    "about +" :
                     "`displacement' [mm] or `force' [N] of the chuck, "
                     "positive ") +
         (into_bone ? "into the bone, along -z. Press and Translation z are one "
@@ -117,9 +117,9 @@ namespace Debond
                           "in ") +
                 (rotation ? "degrees for angle, N mm for moment" :
                             "mm for displacement, N for force") +
-                ". Note that sin and cos expect radians: sin(2 * pi * t). "
-                "With File also in table, the value of the table; then the "
-                "default 0 means table.");
+                ". sin and cos take radians: sin(2 * pi * t). With File the "
+                "expression may use table, the value of the table; the "
+                "default 0 then means table.");
     declare_file(own,
                  into_bone ? "press_mm or press_N" :
                              column_name(k, false) + " or " +
@@ -131,8 +131,8 @@ namespace Debond
       Allowed::number_between(1e-9, 1e18, rotation ? "N mm/rad" : "N/mm")
         .or_word_for("none", "0"),
       std::string("Stiffness ") + (rotation ? "[N mm/rad]" : "[N/mm]") +
-        " of a spring between the machine and the implant in this direction. "
-        "`none': the machine is rigid.");
+        " of the machine in series with this component. `none': a rigid "
+        "machine.");
     table.leave_subsection();
   }
 
@@ -146,9 +146,9 @@ namespace Debond
       "Point",
       point,
       Allowed::list(Allowed::number("mm"), 3, 3).or_word("auto"),
-      "Point x, y, z [mm] of the implant that Translation moves, that Rotation "
-      "turns about, and that forces act at: a machine may hold the implant by a "
-      "lever, or push at its edge. `auto': the centre of its top.");
+      "Point x, y, z [mm] of the implant that is translated, that rotations "
+      "are about, and at which forces act, such as the end of a lever. "
+      "`auto': the centre of the implant's top.");
     declare_component(ChuckComponent::translation_z, true, table);
     for (unsigned int k = 0; k < n_components; ++k)
       declare_component(k, false, table);

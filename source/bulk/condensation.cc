@@ -9,8 +9,8 @@
 #include <mutex>
 
 // Static condensation by a sparse Cholesky factorisation: how a body of many
-// unknowns becomes the small matrix S that the contact face feels, station 9 of
-// doc/walk.md.
+// unknowns becomes the small matrix S that the contact face feels, section 9 of
+// doc/developers/walk.md.
 //
 // K [N/mm] is the stiffness of one body, i its interior unknowns and c those of
 // the contact face. Gaussian elimination of a symmetric positive definite K, in
@@ -86,8 +86,8 @@ namespace Debond
   namespace
   {
     // From here on threads inside the dense algebra of a factorisation pay.
-    // They may round differently from one (doc/solution.md, Threads), which is
-    // another reason to leave small systems alone.
+    // They may round differently from one (doc/explanation/solution.md,
+    // Threads), which is another reason to leave small systems alone.
     constexpr unsigned int many_unknowns = 20000;
 
 

@@ -53,7 +53,8 @@ namespace Debond
      * estimated to be within `Load steps / Tolerance`, and answers with the
      * cheapest model whose curve is. The error is the largest difference from
      * the curve of the scene's own bodies on a converged mesh, relative to the
-     * largest torque; doc/auto.md says how it is estimated.
+     * largest torque; doc/howto/accuracy.md says what is tried, and
+     * doc/evidence/speed_and_accuracy.md how close the estimates are.
      */
     struct ModelChoice
     {

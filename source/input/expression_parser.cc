@@ -202,8 +202,8 @@ namespace Debond
 
 
 
-    /** All that doc/parameters.md lists, and no more: what they mean does not
-     *  depend on the version of muParser. */
+    /** All that doc/reference/scene_file.md lists, and no more: what they mean
+     * does not depend on the version of muParser. */
     void
     define_functions(mu::Parser &parser)
     {

@@ -11,7 +11,8 @@ namespace Debond
   {
     // A bond with strength in tension, exponential, irreversible, and with
     // friction of its own: after Immel, Nguyen, Haiat and Sauer (2022) and
-    // Mergel, Scheibert and Sauer (2021). doc/model.md, Adhesive interface.
+    // Mergel, Scheibert and Sauer (2021). doc/explanation/adhesion.md,
+    // Adhesive.
     //
     //   sigma_e(x) = t_0 x/g_0 exp(1 - x/g_0)    envelope of the pull
     //   d(kappa) = 1 up to g_0, then sigma_e(kappa)/t_0
@@ -359,22 +360,22 @@ namespace Debond
         "Gap at strength",
         "0.005",
         Allowed::number_between(1e-9, 1e3, "mm"),
-        "g_0 [mm]: the gap at which the pull is largest. e t_0 g_0 is the work "
-        "of adhesion [N/mm]; Strength / g_0 times e the stiffness of the bond."},
+        "g_0 [mm]: gap at the largest pull. The work of adhesion is e t_0 "
+        "g_0 [N/mm], the initial stiffness of the bond e t_0 / g_0."},
        {subsection,
         "Adhesive friction",
         "1",
         Allowed::number_between(0, 1, ""),
-        "c, dimensionless: the part of the strength that adds to the pressure "
-        "in friction, mu (p + c phi t_0)."},
+        "c, dimensionless: share of the strength that is added to the "
+        "pressure in friction, mu (p + c phi t_0)."},
        {subsection,
         "Opening viscosity",
         "0",
         Allowed::number_between(1e-15, 1e15, "MPa per (mm per unit of time)")
           .or_number(0),
-        "eta [MPa per (mm per unit of time)]: a bond that opens with the speed v "
-        "pulls with phi eta v more. With it a bond that would open in a jump "
-        "opens in time instead, and results depend on the rate."}},
+        "eta [MPa per (mm per unit of time)]: a bond that opens with the "
+        "speed v has an additional pull of phi eta v. A bond that would open "
+        "in a jump opens in time instead, and results depend on the rate."}},
       [](const LawChoice &choice, const InterfaceLawParts &parts) {
         if (choice.number("Strength") == 0.)
           return friction_under_pressure(parts);

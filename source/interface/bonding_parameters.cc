@@ -33,42 +33,44 @@ namespace Debond
       "Pattern",
       pattern,
       Allowed::choice(pattern_names),
-      "Where the implant's contact face is bonded at the start (phi_0, in "
-      "reference coordinates). `homogeneous': everywhere. `disk': inside the "
-      "concentric disk that holds Bonded fraction of the area of a coin or a "
-      "cap; `annulus': outside the disk that holds the rest. `random': as many "
-      "elements, drawn by Seed, as make up Bonded fraction. `expression': see "
-      "Expression. `image', `file': see File.");
+      "Where the contact face of the implant is bonded at the start (phi_0, "
+      "in reference coordinates). `homogeneous': everywhere. `disk': inside "
+      "the concentric disk that has Bonded fraction of the area of a coin or "
+      "cap. `annulus': outside a concentric disk, with that fraction. "
+      "`random': as many elements, drawn by Seed, as make up Bonded "
+      "fraction. `expression': see Expression. `image', `file': see File.");
     table.add("Bonding degree",
               initial_bonding,
               Allowed::number_between(0, 1, ""),
-              "Degree of osseointegration phi_0 of bonded points, "
-              "dimensionless: multiplies every pattern.");
+              "Bonding degree phi_0 of bonded points, dimensionless, from 0 "
+              "to 1: it multiplies every pattern.");
     table.add(
       "Bonded fraction",
       bonded_fraction,
       Allowed::number_between(0, 1, ""),
-      "Bonded part f of the area, dimensionless, met exactly: elements at its "
-      "border are partly bonded. Pattern disk: of a coin r <= R sqrt(f); "
-      "annulus: r >= R sqrt(1 - f). Must be 1 for patterns without it.");
+      "Bonded share f of the area, dimensionless, met exactly: elements at "
+      "its border are partly bonded. A disk on a coin is r <= R sqrt(f), an "
+      "annulus r >= R sqrt(1 - f). Must be 1 for patterns that do not use it.");
     table.add("Seed",
               seed,
               Allowed::whole_number(0, std::numeric_limits<int>::max()),
-              "Pattern random: which one; the same on every machine.");
+              "Number of the random pattern, for Pattern = random; the same "
+              "number gives the same pattern on every machine.");
     table.add(
       "Correlation length",
       correlation_length,
       Allowed::number_between(1e-6, 1e6, "mm").or_number(0),
-      "Pattern random: size l of patches, the highest places of a random field "
-      "with the correlation exp(-(d/l)^2). 0: independent elements.");
+      "Size l [mm] of bonded patches, for Pattern = random: the highest "
+      "values of a random field with the correlation exp(-(d/l)^2). 0: "
+      "independent elements.");
     declare_places(table);
     table.add(
       "Resolution",
       resolution,
       Allowed::choice("element | quadrature point"),
-      "phi_0 is constant on each surface element of the implant, patterns "
-      "expression and image with their area mean there; or it is that of each "
-      "quadrature point.");
+      "`element': phi_0 is constant on each surface element of the implant "
+      "(the area mean, for expression and image). `quadrature point': each "
+      "quadrature point has its own.");
     table.leave_subsection();
   }
 
@@ -81,10 +83,10 @@ namespace Debond
       "Expression",
       expression,
       Allowed::text("an expression in x, y, r, angle, pi, R", false),
-      "Pattern expression: phi_0 in [0, 1] as a function of the place "
-      "(muParser): x, y and the distance r from the axis in mm, angle from the "
-      "x axis towards the y axis in degrees, above -180 and up to 180, pi, and "
-      "the radius R of the implant in mm. sin and cos expect radians.");
+      "Pattern expression: phi_0 in [0, 1] as an expression in the position: "
+      "x, y and the distance r from the axis in mm, angle from the x axis "
+      "towards the y axis in degrees, above -180 and up to 180, pi, and the "
+      "radius R of the implant in mm. sin and cos expect radians.");
     table.add(
       "File",
       file,
@@ -101,15 +103,17 @@ namespace Debond
     table.add("White level",
               white_level,
               Allowed::whole_number(1, 65535).or_word_for("auto", "0"),
-              "Pattern image: the level of the file that is white, phi_0 = 1, "
-              "such as 4095 for 12 bits in a file of 16. `auto': the largest that "
-              "the file has room for: 255, 65535, or what a PGM file says.");
+              "Grey level in the file that is white, phi_0 = 1, for Pattern "
+              "= image: 4095 for 12 bits in a file of 16. `auto': the "
+              "largest that the format has, 255, 65535, or what a PGM file "
+              "says.");
     table.add(
       "Threshold",
       threshold,
       Allowed::number_between(0, 0.9999, "").or_word_for("none", "-1"),
-      "Pattern image: grey level, from 0 (black) to 1 (white), above which "
-      "phi_0 = 1; it is 0 elsewhere. `none': grey levels as they are.");
+      "Grey level, from 0 (black) to 1 (white), above which phi_0 = 1, for "
+      "Pattern = image; below it is 0. `none': grey levels are used as they "
+      "are.");
   }
 
 

@@ -6,7 +6,7 @@
 
 // Methods that are there to be compared with, and not to be used: the direction
 // of slip that does not turn within a step, or, as Eq. (31) has it, not at all.
-// doc/stability.md shows where they fail.
+// doc/evidence/stability.md shows where they fail.
 // What the program does by itself needs nothing of this file.
 namespace Debond
 {

@@ -417,8 +417,9 @@ namespace Debond
   // The same tangent as a matrix: a sum of dense blocks, as points are
   // independent. It is formed only where the system is assembled after all, as
   // a preconditioner: for a stiff interface, or an unknown chuck, which the
-  // bulk does not resist (doc/solution.md). What rotation does to frames and
-  // lever arms under forces that stay is not in it; CoupledTangent adds that.
+  // bulk does not resist (doc/explanation/solution.md). What rotation does to
+  // frames and lever arms under forces that stay is not in it; CoupledTangent
+  // adds that.
   void
   ContactInterface::add_tangent(const InterfaceConfiguration &configuration,
                                 Eigen::MatrixXd              &matrix) const

@@ -113,8 +113,9 @@ namespace Debond
       // The largest slope that is still ahead of a point [1/mm]: pi / (4 a_s
       // b_s) half way down, at (1 + b_s) a_s, less after that. It gives the
       // bound of local uniqueness, p / eps_t < 4 a_s b_s / (pi phi_0 (mu_ub -
-      // mu_b)) (doc/model.md). A point before the middle is judged by the
-      // middle already, so that a large step does not jump over it unnoticed.
+      // mu_b)) (doc/explanation/stability.md). A point before the middle is
+      // judged by the middle already, so that a large step does not jump over
+      // it unnoticed.
       //
       // A short fall is a brittle bond. The torque of the main scene falls by 1
       // N m/rad at most, far less than any machine is stiff; with a_s = 0.005
@@ -147,16 +148,16 @@ namespace Debond
                "Characteristic slip distance",
                "0.022",
                Allowed::number_between(1e-9, 1e6, "mm"),
-               "Sliding distance a_s [mm] up to which a point stays fully "
-               "bonded. Used by modified coulomb, and by coulomb with Law = "
-               "adhesive."},
+               "Characteristic slip distance a_s [mm]: sliding distance up "
+               "to which a point stays fully bonded. Used by modified "
+               "coulomb, and by coulomb with Law = adhesive."},
               {"",
                "Transition factor",
                "0.74",
                Allowed::number_between(1e-9, 1e6, ""),
                "Factor b_s, dimensionless: a point is fully debonded once it "
-               "has slid (1 + 2 b_s) a_s. Used as the Characteristic slip "
-               "distance."}};
+               "has slid (1 + 2 b_s) a_s. Used where Characteristic slip "
+               "distance is."}};
     }
 
 
@@ -246,7 +247,7 @@ namespace Debond
                     BondFriction::allowed_coefficient(),
                     "Coefficient mu of Friction law = coulomb, dimensionless."});
     return {"coulomb",
-            "the constant coefficient Friction coefficient",
+            "constant, Friction coefficient",
             entries,
             [](const LawChoice &choice) {
               const double mu = choice.number("Friction coefficient");
@@ -263,9 +264,9 @@ namespace Debond
   modified_coulomb_plugin()
   {
     return {"modified coulomb",
-            "the coefficient falls from its unbroken to its broken value as "
-            "the accumulated sliding distance of a point grows (Eqs. 11 to 13 "
-            "of the paper)",
+            "falls from Friction coefficient unbroken to broken with the "
+            "accumulated sliding distance of a point (Eqs. 11 to 13 of the "
+            "paper)",
             BondFriction::entries(decay_entries()),
             [](const LawChoice &choice) {
               return modified_coulomb(

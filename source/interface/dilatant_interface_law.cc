@@ -111,20 +111,21 @@ namespace Debond
     const std::string subsection = "Dilatant";
     return {
       "dilatant",
-      "friction under pressure between rough faces that climb on each other as "
-      "they slide",
+      "friction under pressure between rough faces that move apart as they "
+      "slide",
       {{subsection,
         "Height",
         "0.002",
         Allowed::number_between(1e-9, 1e3, "mm").or_number(0),
-        "h_inf [mm]: by how much the faces are further apart after much slip."},
+        "h_inf [mm]: distance by which the faces have moved apart after long "
+        "sliding."},
        {subsection,
         "Length",
         "0.05",
         Allowed::number_between(1e-9, 1e3, "mm"),
-        "l [mm]: the sliding distance over which they climb, h = h_inf (1 - "
-        "exp(-g_s/l)). Height / Length must not exceed the friction of what is "
-        "debonded: friction pays for the climb."}},
+        "l [mm]: sliding distance over which they move apart, h = h_inf (1 - "
+        "exp(-g_s/l)). Height / Length must not exceed the friction "
+        "coefficient of a debonded point, which provides the work."}},
       [](const LawChoice &choice, const InterfaceLawParts &parts) {
         const double height = choice.number("Height"),
                      length = choice.number("Length"),

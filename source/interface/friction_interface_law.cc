@@ -64,7 +64,7 @@ namespace Debond
   friction_interface_law_plugin()
   {
     return {"friction",
-            "friction under pressure, without strength in tension (the paper)",
+            "friction under pressure, no strength in tension (the paper)",
             {},
             [](const LawChoice &, const InterfaceLawParts &parts) {
               return friction_under_pressure(parts);

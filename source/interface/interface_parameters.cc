@@ -15,7 +15,8 @@ namespace Debond
     table.add("Slave",
               slave,
               Allowed::choice("bone | implant"),
-              "The body whose contact face carries the quadrature points.");
+              "Body whose contact face has the quadrature points, which are "
+              "projected onto the other body, the master.");
     table.add(
       "Quadrature points",
       quadrature_points == 0 ? "auto" : entry_text(quadrature_points),
@@ -25,39 +26,41 @@ namespace Debond
           read_entry(text, quadrature_points);
       },
       Allowed::whole_number(1, most_points).or_word("auto"),
-      "Gauss points per direction and slave surface element. `auto': 5; if a "
-      "body has splines 6 (5 if both have fitted cells), or as many as keep the distance between points "
-      "below the width of the other body's cells.");
+      "Gauss points per direction on each surface element of the slave. "
+      "`auto': 5; if a body has splines 6 (5 if both have fitted cells), or "
+      "as many as keep the distance between points below the width of the "
+      "other body's cells.");
     table.add("Normal stiffness",
               normal_penalty,
               Allowed::number_between(1e-6, 1e15, "MPa/mm"),
-              "Normal stiffness eps_n [MPa/mm] of the interface: pressure per "
-              "penetration.");
-    table.add("Tangential stiffness",
-              tangential_penalty,
-              Allowed::number_between(1e-6, 1e15, "MPa/mm")
-                .or_word_for("auto", "0"),
-              "Tangential stiffness eps_t [MPa/mm] of the interface: shear "
-              "traction per relative displacement before slip. `auto': the "
-              "same as the normal one.");
+              "Normal stiffness eps_n [MPa/mm] of the interface: pressure "
+              "per penetration. It is a property of the interface, and is "
+              "fitted to the measured slope with Tangential stiffness.");
+    table.add(
+      "Tangential stiffness",
+      tangential_penalty,
+      Allowed::number_between(1e-6, 1e15, "MPa/mm").or_word_for("auto", "0"),
+      "Tangential stiffness eps_t [MPa/mm] of the interface: tangential "
+      "traction per elastic displacement along the interface. `auto': as "
+      "Normal stiffness.");
     declare_interface_laws(table, law_choice);
     declare_friction_laws(table, friction_choice);
     table.add("Friction starts at",
               friction_starts_at,
               Allowed::number("time"),
-              "Time before which the interface is frictionless.");
+              "Time until which the interface is frictionless.");
     table.add("Interference",
               interference,
               Allowed::text("an expression in t"),
-              "By how much the implant is thicker than the bore that it is "
-              "in, on the diameter [mm], an expression in the time t; "
-              "negative: thinner. What it is at the first time is there before "
-              "anything moves.");
+              "Excess of the diameter of the implant over that of its bore "
+              "[mm], an expression in the time t; negative: clearance. Its "
+              "value at the first time is there before anything moves.");
     table.add("Opening breaks bond",
               opening_breaks_bond,
               Allowed::choice("false | true"),
-              "Whether a bonded point that opens is debonded for good; in the "
-              "paper it is not.");
+              "`true': a bonded point that opens is debonded for good. "
+              "`false': it bonds again when it closes, as in the paper (with "
+              "Law = adhesive or mixed mode: as that law says).");
     declare_viscosity(table);
     bonding.declare(table);
     table.leave_subsection();
@@ -66,7 +69,7 @@ namespace Debond
 
 
   // Six: with splines the error of five is as large as that of the bulk, but
-  // where elements are small at the rim (doc/speed_and_accuracy.md).
+  // where elements are small at the rim (doc/evidence/speed_and_accuracy.md).
   unsigned int
   InterfaceParameters::points_per_element(const BodyParameters &bone,
                                           const BodyParameters &implant) const
@@ -142,14 +145,13 @@ namespace Debond
       viscosity,
       Allowed::number_between(1e-15, 1e15, "MPa per (mm per unit of time)")
         .or_number(0),
-      "Viscosity eta [MPa per (mm per unit of time)] of sliding: a point that "
-      "slides with the speed v carries mu p + eta v. One that sticks carries "
-      "none of it, nor one without friction. With it a bond that would break "
-      "in a jump breaks in time instead: the local solution is unique while |d "
-      "mu/d g_s| p is below the tangential stiffness plus eta over the "
-      "(sub-)step's duration. Time is then more than a parameter of the load: "
-      "results depend on the rate. Must be 0 with Friction law = "
-      "frictionless.");
+      "Viscosity eta [MPa per (mm per unit of time)] of sliding: a point "
+      "that slides with the speed v has the friction mu p + eta v; one that "
+      "sticks has none of it. A bond that would break in a jump breaks in "
+      "time instead: the local solution is unique while |d mu/d g_s| p is "
+      "below Tangential stiffness plus eta over the duration of the "
+      "(sub-)step. Results then depend on the rate. Must be 0 with Friction "
+      "law = frictionless.");
   }
 
 
@@ -163,19 +165,19 @@ namespace Debond
       "Slip direction",
       slip_direction,
       Allowed::choice("integrated | trial | previous gap"),
-      "Direction in which a sliding point is pulled. `integrated': the point "
-      "tows its interacting point along its way in the step, of second order "
-      "in the step. `trial': that of the gap which it would have without "
-      "sliding in this step, of first order where the direction turns. "
-      "`previous gap': that of the step before, Eq. (31) as printed, which can "
-      "never turn. The last two are there to show how they fail.");
+      "Direction of slip within a step. `integrated': integrated along the "
+      "path of the point during the step; second order in the step. `trial': "
+      "that of the gap without sliding in this step; first order where the "
+      "direction turns. `previous gap': that of the previous step, Eq. (31) "
+      "as printed, which can never turn. `trial' and `previous gap' are for "
+      "comparison.");
     table.add(
       "Friction update",
       explicit_friction,
       Allowed::choice("implicit | explicit"),
-      "`implicit': the friction coefficient belongs to the sliding distance at "
-      "the end of the step. `explicit': to that at its beginning, so that a "
-      "softening bond lags behind by a step.");
+      "`implicit': friction coefficient for the sliding distance at the end "
+      "of the step. `explicit': for that at its beginning, so that softening "
+      "lags one step behind; for comparison.");
     table.leave_subsection();
   }
 

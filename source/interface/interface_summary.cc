@@ -42,7 +42,8 @@ namespace Debond
 
 
   // Whether contact is incomplete. What lies beside closed points on the
-  // surface of a linear body matters to open ones only (doc/solution.md).
+  // surface of a linear body matters to open ones only
+  // (doc/explanation/solution.md).
   bool
   ContactInterface::has_open_points() const
   {

@@ -26,8 +26,8 @@ namespace Debond
 
     // The law of the interface in small parts of the way: the spring follows
     // the motion, and slides by what friction does not hold any more. What is
-    // dissipated is a trapezoid as that of a step [N/mm]: doc/theory.md,
-    // Energies.
+    // dissipated is a trapezoid as that of a step [N/mm]:
+    // doc/explanation/contact.md, Energies.
     double
     friction_until_open(const Lifting      &lifting,
                         const InterfaceLaw &law,

@@ -54,22 +54,23 @@ namespace Debond
 
   namespace
   {
-    // A row @p entry that chooses a law, and rows for the entries of all laws.
+    // A row @p entry, @p about something, that chooses a law, and rows for the
+    // entries of all laws.
     template <typename Plugin>
     void
     declare(EntryTable                &table,
             const std::string         &entry,
+            const std::string         &about,
             const std::string         &default_law,
             const std::vector<Plugin> &plugins,
             LawChoice                 &choice)
     {
-      std::string names, text;
+      std::string names, text = about;
       for (const Plugin &plugin : plugins)
         {
           names += (names.empty() ? "" : " | ") + plugin.name;
-          text += "`" + plugin.name + "': " + plugin.description + ". ";
+          text += " `" + plugin.name + "': " + plugin.description + ".";
         }
-      text.pop_back();
       if (choice.law.empty())
         choice.law = default_law;
       table.add(entry, choice.law, Allowed::choice(names), text);
@@ -109,6 +110,7 @@ namespace Debond
   {
     declare(table,
             "Friction law",
+            "Friction coefficient mu.",
             "modified coulomb",
             friction_law_plugins(),
             choice);
@@ -119,7 +121,12 @@ namespace Debond
   void
   declare_interface_laws(EntryTable &table, LawChoice &choice)
   {
-    declare(table, "Law", "friction", interface_law_plugins(), choice);
+    declare(table,
+            "Law",
+            "Tractions across the interface.",
+            "friction",
+            interface_law_plugins(),
+            choice);
   }
 
 

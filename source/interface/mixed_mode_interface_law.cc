@@ -275,8 +275,8 @@ namespace Debond
                         energy     = Allowed::number_between(1e-9, 1e6, "N/mm");
     return {
       "mixed mode",
-      "a bilinear cohesive law for tension and shear, and friction on what is "
-      "broken",
+      "a bilinear cohesive law for tension and shear, and friction where it "
+      "is broken",
       {{subsection,
         "Normal strength",
         "5",
@@ -286,37 +286,37 @@ namespace Debond
         "Shear strength",
         "5",
         strength,
-        "T [MPa]: the largest traction along it."},
+        "T [MPa]: the largest tangential traction on a full bond."},
        {subsection,
         "Fracture energy I",
         "0.05",
         energy,
-        "G_I [N/mm]: the work that opening takes to the end, per area. More "
-        "than Normal strength^2 / (2 Stiffness)."},
+        "G_I [N/mm]: work per area of complete opening. More than Normal "
+        "strength^2 / (2 Stiffness)."},
        {subsection,
         "Fracture energy II",
         "0.1",
         energy,
-        "G_II [N/mm]: the same of sliding. More than Shear strength^2 / (2 "
-        "Stiffness)."},
+        "G_II [N/mm]: work per area of complete sliding. More than Shear "
+        "strength^2 / (2 Stiffness)."},
        {subsection,
         "Stiffness",
         "2000",
         Allowed::number_between(1e-6, 1e15, "MPa/mm"),
-        "K [MPa/mm]: traction per gap before damage, in both directions."},
+        "K [MPa/mm]: traction per gap before damage, normal and tangential."},
        {subsection,
         "Criterion",
         "benzeggagh-kenane",
         Allowed::choice("benzeggagh-kenane | power law"),
-        "How the fracture energies mix: `benzeggagh-kenane': G_I + (G_II - G_I) "
-        "B^Exponent, B being the share of delta_t^2 in delta^2. `power law': "
-        "the energies of both modes over G_I and G_II, to this power, add up "
-        "to 1."},
+        "How the fracture energies of both modes combine. "
+        "`benzeggagh-kenane': G_I + (G_II - G_I) B^Exponent, with B = "
+        "delta_t^2 / delta^2. `power law': the energies of both modes, "
+        "divided by G_I and G_II and raised to Exponent, add up to 1."},
        {subsection,
         "Exponent",
         "2",
         Allowed::number_between(1, 10, ""),
-        "Of the criterion, dimensionless."}},
+        "Exponent of the criterion, dimensionless."}},
       create};
   }
 } // namespace Debond

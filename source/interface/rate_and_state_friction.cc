@@ -13,7 +13,7 @@
 // eps_t being in series with the rest. On a softer one disturbances grow until
 // the speed is infinite, and there is no quasi-static solution: the run warns
 // of a jump or ends. `Interface / Viscosity' bounds the speed, and the implant
-// sticks and slips in turns (doc/model.md).
+// sticks and slips in turns (doc/explanation/interface.md).
 //
 // The time steps are what such a law costs. They are implicit and of first
 // order, and damp what oscillates with the frequency omega by omega^2 dt/4:
@@ -146,7 +146,7 @@ namespace Debond
       //
       // This asks for the distance of the step, unlike laws of g_s alone: what
       // is ahead depends on speeds that are not known yet. Where it exceeds
-      // eps_t / p the step is halved (doc/model.md).
+      // eps_t / p the step is halved (doc/explanation/interface.md).
       double
       steepest_fall(const FrictionState &start,
                     const double         distance) const override
@@ -200,27 +200,28 @@ namespace Debond
           row("Reference coefficient",
               "0.4",
               Allowed::number_between(1e-9, 1e6, "").or_number(0),
-              "mu_0, dimensionless: that of a point that has been sliding with "
-              "a speed far below Reference speed and whose state is Sliding "
-              "distance / Reference speed."),
+              "mu_0, dimensionless: coefficient at a speed far below "
+              "Reference speed, with the state Sliding distance / Reference "
+              "speed."),
           row("Direct effect",
               "0.01",
               Allowed::number_between(1e-9, 1e6, ""),
-              "A, dimensionless: mu rises by A ln(1 + V/V_0) at once with the "
-              "speed V."),
+              "A, dimensionless: mu rises immediately by A ln(1 + V/V_0) "
+              "with the speed V."),
           row("Evolution effect",
               "0.015",
               Allowed::number_between(1e-9, 1e6, "").or_number(0),
-              "B, dimensionless: mu changes by B ln(V_0 theta/D) as the state "
-              "theta follows. B > A weakens with the speed."),
+              "B, dimensionless: mu changes by B ln(V_0 theta/D) as the "
+              "state theta evolves. With B > A friction falls with the speed."),
           row("Reference speed",
               "1e-3",
               Allowed::number_between(1e-30, 1e15, "mm per unit of time"),
-              "V_0 [mm per unit of time]."),
+              "V_0 [mm per unit of time]: speed that mu_0 refers to."),
           row("Sliding distance",
               "0.01",
               Allowed::number_between(1e-9, 1e6, "mm"),
-              "D [mm], over which the state follows the speed."),
+              "D [mm]: sliding distance over which the state evolves after a "
+              "change of speed."),
           row(
             "Initial state",
             "0",
@@ -303,8 +304,9 @@ namespace Debond
   rate_and_state_plugin()
   {
     return {"rate and state",
-            "mu = mu_0 + A ln(1 + V/V_0) + B ln(V_0 theta/D) with the sliding "
-            "speed V and a state theta that follows it, see Rate and state",
+            "mu = mu_0 + A ln(1 + V/V_0) + B ln(V_0 theta/D), with the "
+            "sliding speed V and a state theta that evolves with sliding, "
+            "see subsection Rate and state",
             RateAndState::entries(),
             [](const LawChoice &choice) {
               return FrictionLawPointer(std::make_shared<RateAndState>(choice));

@@ -20,9 +20,9 @@ namespace Debond
   {
     // A scene that needs more memory than there is would be killed by the
     // system after minutes, without a word. So the need is estimated first. It
-    // is done before the first mesh is made, from sizes alone (doc/solution.md,
-    // Memory). What follows is the `setup_system' of a step of deal.II, timed
-    // as one section.
+    // is done before the first mesh is made, from sizes alone
+    // (doc/explanation/solution.md, Threads, memory and checks). What follows
+    // is the `setup_system' of a step of deal.II, timed as one section.
     CoupledSystem
     build(const Scene              &scene,
           std::shared_ptr<BodyPair> bodies,
@@ -389,8 +389,8 @@ namespace Debond
             << chuck.position()[ChuckComponent::rotation_z] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: " << result.why;
     if (scene.load_steps.follow_path)
-      message << ". A path may end at a limit point, as doc/solution.md says "
-                 "(Following the path)";
+      message << ". A path may end at a limit point, see "
+                 "doc/explanation/stability.md (Following the path)";
     else if (!chuck.unknowns().empty() && result.interface.n_closed > 0)
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "

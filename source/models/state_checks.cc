@@ -87,8 +87,8 @@ namespace Debond
              Text() << "as it opens the bond may soften by "
                     << to_text(summary.opening_softening, 3) << " MPa/mm, and "
                     << (std::isnan(compliance) ?
-                          "how stiff a bone that is not condensed is nobody "
-                          "knows" :
+                          "the stiffness of a bone that is not condensed is "
+                          "unknown" :
                           "bodies and machine hold with no more than " +
                             to_text(1. / compliance, 3) + " MPa/mm")
                     << ": there may be more than one state of equilibrium, and "

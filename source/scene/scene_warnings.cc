@@ -79,8 +79,8 @@ namespace Debond
                  to_text(scene.implant.young_modulus) +
                  " MPa: are they swapped?");
           // A trilinear cell cannot bend without a change of its volume, which
-          // a nearly incompressible material resists. Splines can: doc/
-          // speed_and_accuracy.md, Other scenes.
+          // a nearly incompressible material resists. Splines can:
+          // doc/evidence/speed_and_accuracy.md, Other scenes.
           note(!body.is_rigid() && body.element == ElementKind::trilinear &&
                  body.poisson_ratio > 0.45,
                name + "locking",
@@ -303,7 +303,8 @@ namespace Debond
 
     // What carries and what does not changes in steps where the border of the
     // contact goes over cells and points, so that forces and moments ripple.
-    // Measured ripples of moments are below these estimates: doc/stability.md.
+    // Measured ripples of moments are below these estimates:
+    // doc/evidence/stability.md.
     void
     judge_crossing(const Scene               &scene,
                    const unsigned int         d,
@@ -329,7 +330,7 @@ namespace Debond
              " % of its face each, which are too coarse for so stiff an "
              "interface: forces and moments may ripple by some " +
              to_text(100. * ripple, 2) +
-             " % from cell to cell. Finer Bone / Cells, or a smaller Penalty "
+             " % from cell to cell. Finer Bone / Cells, or a smaller Normal "
              "stiffness");
       const double R   = 0.5 * implant.width(d),
                    off = std::max(std::abs(*most), std::abs(*least));
@@ -338,7 +339,7 @@ namespace Debond
            "cells off the rim",
            entry + " moves the implant " + to_text(off, 3) +
              " mm from where the cells of the bone are fitted to its rim; "
-             "beyond they are coarse. For such a way expected equal "
+             "beyond they are coarse. For such a displacement expected equal "
              "Bone / Cells");
       const bool over_edge = std::max(*most, -*least) + 0.5 * implant.width(d) >
                              0.5 * bone.width(d) * (1. + 1e-9);

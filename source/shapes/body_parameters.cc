@@ -138,27 +138,27 @@ namespace Debond
         "Lateral grading",
         bone.lateral_grading,
         allowed_grading,
-        "Exponent g that places the cells across the block: their sides are at x "
-        "= sign(s) |s|^g L/2 with s equally spaced from -1 to 1 and L the edge "
-        "length, in y alike. 1: equal cells; more than 1: smaller cells towards "
-        "the centre, under the implant.");
+        "Grading exponent g of the cells across the block: their sides are "
+        "at x = sign(s) |s|^g L/2, with s equally spaced from -1 to 1 and "
+        "the edge length L; the same in y. 1: equal cells. More than 1: "
+        "smaller cells at the centre, under the implant.");
       table.add(
         "Cells under implant",
         bone.cells_under_implant,
         Allowed::whole_number(1, 1000000000).or_word_for("none", "0"),
-        "How many of the cells across are under the implant, within its "
-        "rim, the others as many to the left as to the right: cells "
-        "become smaller towards the rim, where the pressure changes "
-        "most. `none': cells do not follow the rim. It is for Element = spline "
-        "or quadratic; trilinear cells become too stiff below the rim.");
+        "Number of cells across that lie under the implant, within its rim; "
+        "the others are divided equally between both sides. Cells become "
+        "smaller towards the rim, where the pressure changes most. `none': "
+        "cells do not follow the rim. For Element = spline or quadratic; "
+        "trilinear cells become too stiff below the rim.");
       table.add(
         "Rim grading",
         bone.rim_grading,
         allowed_grading,
-        "Exponent g of cells that heed the rim: their sides are at the "
-        "distances R s^g from it within, and (L/2 - R) s^g beside, with "
-        "s equally spaced from 0 to 1, R the radius of the implant and L "
-        "the edge length.");
+        "Grading exponent g of cells that follow the rim: their sides are at "
+        "the distances R s^g from it inside, and (L/2 - R) s^g outside, with "
+        "s equally spaced from 0 to 1, the radius R of the implant and the "
+        "edge length L.");
     }
 
 
@@ -169,21 +169,19 @@ namespace Debond
         "Solver",
         bone.bulk_solver,
         Allowed::choice("auto | direct | lattice | multigrid"),
-        "How the stiffness of the bone is solved. `direct': by a sparse "
-        "factorisation, condensed on the contact face. `lattice': by "
-        "sines and cosines across, exact for a bone of splines with "
-        "cells of equal width, at the cost of a few products of "
-        "matrices; the bone has no shear at its sides then, which is "
-        "what sides that slide come to with ever finer cells. The "
-        "stiffness of a Neo-Hookean bone stays that at rest, which leads "
-        "Newton's method to the same solution as long as strains are "
-        "small. `multigrid': "
-        "by iterations for the whole system with algebraic multigrid, "
-        "for bones that are too large to be factorised, on any number "
-        "of processes (mpirun). `auto': multigrid on several, or where factors "
-        "would not fit into the memory; lattice where that is possible, the "
-        "implant stays away from the sides, and strains are below some 1 %. The "
-        "program says which, and why.");
+        "How the linear equations of the bone are solved. `direct': sparse "
+        "factorisation, condensed on the contact face. `lattice': sines and "
+        "cosines across the block; exact for a bone of splines with cells of "
+        "equal width, and fast. Its sides carry no shear then, which is the "
+        "limit of sliding sides as cells become smaller. A Neo-Hookean bone "
+        "keeps the stiffness at rest in the iterations, which converge to "
+        "the same solution as long as strains are small. `multigrid': "
+        "iterations on the whole system with algebraic multigrid, for bones "
+        "too large to be factorised, on any number of processes (mpirun). "
+        "`auto': multigrid on several processes, or where factors would not "
+        "fit into memory; lattice where it is possible, the implant stays "
+        "away from the sides, and strains are below some 1 %; else direct. "
+        "The program says which it takes, and why.");
     }
 
 
@@ -196,7 +194,8 @@ namespace Debond
         implant.pitch,
         allowed_length,
         "Distance [mm] along the axis between neighbouring crests of the "
-        "thread of a screw. In a turn it comes out by this times Starts.");
+        "thread of a screw. In one turn the screw comes out by Pitch times "
+        "Starts.");
       table.add("Thread depth",
                 implant.thread_depth,
                 allowed_length,
@@ -220,43 +219,43 @@ namespace Debond
               Allowed::list(allowed_length, 3, 3),
               "Edge lengths [mm] of the block of bone in x, y and z. Its top "
               "face is at z = 0, centred below the implant; its bottom is "
-              "held, its sides slide along themselves.");
+              "held, its sides move in their own planes only.");
     table.add("Outer radius",
               outer_radius,
               AllowedValues(allowed_length).or_word_for("none", "0"),
-              "Outer radius [mm] of a sleeve or of a cavity that is a shell; "
-              "the inner one is that of the implant. `none': a cavity is a "
-              "block.");
+              "Outer radius [mm] of a sleeve, or of a cavity that is a "
+              "shell; the inner radius is that of the implant. `none': a "
+              "cavity is a block.");
     table.add("Height",
               sleeve_height,
               AllowedValues(allowed_length).or_word_for("auto", "0"),
-              "Height [mm] of a sleeve, from its top at z = 0 down. `auto': "
-              "that of the implant.");
+              "Height [mm] of a sleeve, downwards from its top at z = 0. "
+              "`auto': that of the implant.");
     table.add(
       "Ends",
       ends,
       Allowed::choice("free | slide | axial | held"),
       "How top and bottom of a sleeve, or the top of a cavity, are held. "
-      "`slide': they do not move along the axis. `axial': they move "
-      "along the axis only. `held': not at all.");
+      "`free': not at all. `slide': they do not move along the axis. "
+      "`axial': they move along the axis only. `held': they do not move.");
     table.add("Support radius",
               support_radius,
               AllowedValues(allowed_length).or_word_for("none", "0"),
-              "Radius [mm] of the hole in a plate on which a sleeve stands, as "
-              "in push-out tests: its bottom is held from there outwards "
-              "(cells whose middle is beyond it), its outer face is free. "
-              "`none': the outer face is held.");
+              "Radius [mm] of the hole in a plate on which a sleeve stands, "
+              "as in push-out tests: cells of its bottom whose centre is "
+              "beyond this radius are held, and its outer face is free. "
+              "`none': no plate, the outer face is held.");
     declare_cells(
       table,
       true,
-      "Number of cells in x, y and z; of a sleeve around, radial and "
-      "along; of a cavity around (4, 8, 12, ...), radial, and along a "
-      "meridian from a square below, of a quarter of those around "
-      "across, to the rim. `fitted a, i, o, l': cells of a block that "
-      "follow the rim of a coin or cap, a (a multiple of 4) around it, "
-      "i from a square core to it, o from it to the sides, in l "
-      "layers, all smaller towards the rim; `fitted': 16, 6, 10, 9. "
-      "They are for Element = spline, and pay where the interface is "
+      "Number of cells in x, y and z. Of a sleeve: around, radially and "
+      "along its axis. Of a cavity: around (4, 8, 12, ...), radially, and "
+      "along a meridian, from a square at the bottom, a quarter of those "
+      "around across, to the rim. `fitted a, i, o, l': cells of a block that "
+      "follow the rim of a coin or cap: a (a multiple of 4) around it, i "
+      "from a square core to the rim, o from there to the sides, in l "
+      "layers, all smaller towards the rim. `fitted': 16, 6, 10, 9. Fitted "
+      "cells are for Element = spline and save time where the interface is "
       "stiff.");
     declare_grading(*this, table);
     declare_solver(*this, table);
@@ -275,26 +274,26 @@ namespace Debond
       "Radius",
       radius,
       allowed_length,
-      "Radius R [mm] of a coin, a cap, a ring or a pin; of a taper at z = 0, "
-      "of a screw half way between crest and valley, of a cup that of its "
+      "Radius R [mm] of a coin, cap, ring or pin; of a taper at z = 0; of a "
+      "screw in the middle between crest and valley; of a cup that of its "
       "sphere.");
     table.add(
       "Inner radius",
       inner_radius,
       AllowedValues(allowed_length).or_number(0),
-      "Inner radius [mm] of a hollow pin or cup, or of a ring; 0: it is "
-      "solid.");
+      "Inner radius [mm] of a hollow pin or cup, or of a ring. 0: solid.");
     table.add("Taper angle",
               taper_angle,
               Allowed::number_between(0, 60, "degrees"),
-              "Angle [deg] between the side of a taper and its axis, half of "
-              "that of the cone; below it is thinner.");
+              "Angle [deg] between the side of a taper and its axis, half "
+              "the opening angle of the cone; the taper is thinner at its "
+              "lower end.");
     declare_thread(*this, table);
     table.add("Height",
               height,
               allowed_length,
-              "Height [mm] of a coin, a cap or a ring, on its axis; of a pin "
-              "that of its side, of a cup its depth: no more than its Radius.");
+              "Height [mm] on the axis of a coin, cap or ring; of a pin the "
+              "length of its side; of a cup its depth, at most its Radius.");
     table.add("Cap radius",
               cap_radius,
               Allowed::number_between(1e-6, 1e9, "mm"),
@@ -309,11 +308,12 @@ namespace Debond
     declare_cells(
       table,
       false,
-      "Number of cells in x, y and z. Two numbers n, m mean n, n, m: "
-      "of a coin and a cap across the disk and along the axis. Of a pin and "
-      "a ring around, radial and along; around a solid one 4, 8, 12, ... Of a "
-      "cup as of a cavity. `fitted a, i, l': cells of a coin as they are of "
-      "the bone; `fitted': 12, 5, 5.");
+      "Number of cells in x, y and z. Two numbers n, m mean n, n, m: of a "
+      "coin or cap n across the disk and m along the axis. Of a pin and a "
+      "ring: around, radially and along the axis; around a solid one 4, 8, "
+      "12, ... Of a cup: as Bone / Cells of a cavity. `fitted a, i, l': "
+      "cells of a coin that follow its rim, as Bone / Cells. `fitted': 12, "
+      "5, 5.");
     declare_material(table, false);
     table.leave_subsection();
   }
@@ -325,9 +325,11 @@ namespace Debond
   {
     std::string names,
       text = is_bone ? "Shape of the bone. " :
-                       "Shape of the implant. Its contact face touches z = 0 "
-                       "with its centre at the origin, but for those in the "
-                       "bone; its flat top face is held by the rigid chuck. ";
+                       "Shape of the implant. The contact face of coin, cap, "
+                       "block and ring touches the bone at z = 0, with its "
+                       "centre at the origin; pin, taper, screw and cup are "
+                       "in the bone. The chuck, which is rigid, holds the "
+                       "flat top. ";
     for (const BodyGeometry *const each : body_geometries())
       if (is_bone ? each->is_for_bone() : each->is_for_implant())
         {
@@ -349,15 +351,14 @@ namespace Debond
               mesh_file,
               Allowed::text("the name of a file of hexahedra", false)
                 .or_word_for("none", ""),
-              "File with the cells of the body, for Shape = file, relative to "
-              "the working directory: Gmsh (.msh), Abaqus (.inp) or VTK "
-              "(.vtk); lengths in mm, the contact face near z = 0, the chuck "
-              "on the z axis. Names of groups of faces say what they are: "
-              "contact, held, slides x, slides y and slides z for what is held "
-              "along x, y or z only, and axial for what moves along z only; "
-              "the others are free. The contact face is bilinear, "
-              "or of degree two with Element = quadratic, which files of the "
-              "second order need.");
+              "File with the hexahedra of the body, for Shape = file: Gmsh "
+              "(.msh), Abaqus (.inp) or VTK (.vtk), relative to the working "
+              "directory. Lengths are in mm, the contact face is near z = 0, "
+              "the chuck on the z axis. Groups of faces have these names: "
+              "contact; held; slides x, slides y, slides z (held along x, y "
+              "or z only); axial (moves along z only). Other faces are free. "
+              "The contact face is bilinear, or of degree two with Element = "
+              "quadratic, which files of second order need.");
   }
 
 
@@ -372,7 +373,7 @@ namespace Debond
         table.add("Young modulus",
                   young_modulus,
                   number,
-                  what + " A rigid body ignores it.");
+                  what + " Not used by a rigid body.");
         return;
       }
     // what names no place, and nothing in a formula, is a number, maybe with a
@@ -402,30 +403,31 @@ namespace Debond
       },
       number_or_expression,
       what +
-        " Or an expression in the place x, y, z [mm], z = 0 at the top and "
-        "negative below, with R the radius of the implant: if(z > -1, 18000, "
-        "500) is a cortical layer of 1 mm. It is taken at the Gauss points of "
-        "the cells: let it jump at sides of cells. With a Voxel file also in its grey "
-        "value: max(10, 6850 * max(0, grey / 1000)^1.49). A rigid body ignores "
-        "it.");
+        " Or an expression in the position x, y, z [mm], with z = 0 at the "
+        "top and negative below, and in the radius R of the implant: if(z > "
+        "-1, 18000, 500) is a cortical layer of 1 mm. With a Voxel file also "
+        "in its grey value: max(10, 6850 * max(0, grey / 1000)^1.49). It is "
+        "evaluated at the Gauss points of the cells: let it jump at sides of "
+        "cells. Not used by a rigid body.");
     table.add("Voxel file",
               voxel_file,
               Allowed::text("the name of a file of voxels", false)
                 .or_word_for("none", ""),
-              "File with a grey value for each voxel of the bone, as a "
-              "computed tomograph writes it, relative to the working "
-              "directory. MetaImage (.mhd, .mha), NIfTI (.nii, "
-              ".nii.gz), or CSV with columns x,y,z,grey of the centres [mm]. "
-              "Young modulus says what grey values mean.");
+              "File with a grey value for each voxel of the bone, such as a "
+              "CT image, relative to the working directory: MetaImage (.mhd, "
+              ".mha), NIfTI (.nii, .nii.gz), or CSV with columns x,y,z,grey "
+              "of the centres [mm]. Young modulus says how grey values "
+              "become moduli. `none': no voxels.");
     const AllowedValues places = Allowed::list(Allowed::number("mm"), 3, 3);
     table.add("Voxel corner",
               voxel_corner,
               places.or_word("centred").or_word("file"),
-              "Where the voxels are: x, y, z [mm] of the lowest corner of "
-              "their grid. `centred': the implant is in the middle of the "
-              "grid, whose top is the top of the bone. `file': where the file "
-              "says. Axes: x to the left of a body, y to its back, z to its "
-              "head, as in MetaImage; those of NIfTI files are turned so.");
+              "Position x, y, z [mm] of the lowest corner of the grid of "
+              "voxels. `centred': the implant is in the middle of the grid, "
+              "and the top of the grid is the top of the bone. `file': as "
+              "the file says. Axes of MetaImage: x to the patient's left, y "
+              "to the back, z to the head; those of NIfTI files are "
+              "converted.");
   }
 
 
@@ -497,48 +499,48 @@ namespace Debond
       "Element",
       element,
       Allowed::choice("trilinear | quadratic | spline"),
-      "What the cells are. `trilinear': hexahedra with eight nodes, below the "
-      "contact face with that in the place of a side, as in the paper. "
-      "`quadratic': the same with 27 nodes. `spline': quadratic splines in all "
-      "three directions, with continuous strains: less error for the same "
-      "time, most of all with cells that follow the rim.");
+      "Kind of cells. `trilinear': hexahedra with 8 nodes, whose side at the "
+      "contact face is a NURBS surface, as in the paper. `quadratic': the "
+      "same with 27 nodes. `spline': quadratic splines in all directions, "
+      "with continuous strains: smaller error in the same time, especially "
+      "with cells that follow the rim.");
     table.add(
       "Layer grading",
       layer_grading,
       allowed_grading,
-      "Exponent g that places the layers of cells along the axis: of n layers "
-      "in a body of height H, layer k ends at the distance H (k/n)^g from the "
-      "contact face. 1: equal layers; more than 1: thinner layers towards the "
+      "Grading exponent g of the layers of cells along the axis: of n layers "
+      "in a body of height H, layer k ends at the distance H (k/n)^g from "
+      "the contact face. 1: equal layers. More than 1: thinner layers at the "
       "interface, where the stress changes most.");
     table.add(
       "Coarser below",
       coarser_below,
       Allowed::choice("false | true"),
-      "Whether cells below the first layer, that at the contact face, "
-      "are twice as wide along x and y, with hanging nodes between. For "
-      "trilinear and quadratic elements.");
+      "Make cells below the first layer at the contact face twice as wide in "
+      "x and y, with hanging nodes between. For trilinear and quadratic "
+      "elements.");
     table.add(
       "Material",
       material,
       Allowed::choice("rigid | linear | neo-hookean"),
-      "How the body deforms. `rigid': not at all. `linear': Hooke's law with "
-      "small strains in the body's own moving frame, so that large rotations "
-      "of the implant are exact. `neo-hookean': compressible Neo-Hooke with "
-      "finite strains (Eq. 1 of the paper).");
+      "Material law. `rigid': no deformation. `linear': Hooke's law with "
+      "small strains in a frame that moves with the body, so that large "
+      "rotations of the implant are exact. `neo-hookean': compressible "
+      "Neo-Hooke with finite strains (Eq. 1 of the paper).");
     declare_modulus(table, is_bone);
     table.add("Poisson ratio",
               poisson_ratio,
               Allowed::number_between(0, 0.49, ""),
               "Poisson's ratio nu, dimensionless. Trilinear cells lock as it "
-              "approaches 0.5: beyond 0.45 the program warns, beyond 0.49 it "
-              "refuses. A rigid body ignores it.");
+              "approaches 0.5: above 0.45 the program warns, above 0.49 it "
+              "refuses. Not used by a rigid body.");
     table.add(
       "Contact surface",
       contact_surface,
       Allowed::choice("nurbs | bilinear"),
       "Interpolation of the contact face. `nurbs': biquadratic NURBS with "
-      "continuous normals (the disk of a coin is an exact circle). `bilinear': "
-      "the faces of the ordinary cells, for comparison.");
+      "continuous normals; the disk of a coin is an exact circle. "
+      "`bilinear': the faces of the cells, for comparison.");
   }
 
 

@@ -22,10 +22,11 @@ namespace Debond
       std::string
       description() const override
       {
-        return "bone around the sphere of a cup, whose top is at z = 0: a shell "
-               "if Outer radius is given, which is held at its outer face, "
-               "otherwise a block of Size, whose bottom is held and whose sides "
-               "slide along themselves; its top is held as Ends says";
+        return "bone around the sphere of a cup, whose top is at z = 0: a "
+               "shell if Outer radius is given, which is held at its outer "
+               "face, otherwise a block of Size, whose bottom is held and "
+               "whose sides move in their own planes only; its top is held "
+               "as Ends says";
       }
       bool
       is_for_bone() const override

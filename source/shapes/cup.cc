@@ -22,9 +22,10 @@ namespace Debond
       std::string
       description() const override
       {
-        return "half a sphere of Radius in the bone, or the lower Height of "
-               "one, which touches it with its sphere; with an Inner radius it "
-               "is a shell. Its rim is at z = 0, where the chuck holds it";
+        return "half a sphere of Radius in the bone, or its lowest part of "
+               "the given Height, whose sphere is the contact face; with an "
+               "Inner radius it is a shell. Its rim is at z = 0, where the "
+               "chuck holds it";
       }
       std::vector<std::string>
       entries() const override

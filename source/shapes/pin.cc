@@ -16,9 +16,9 @@ namespace Debond
   std::string
   Pin::description() const
   {
-    return "a cylinder in the bone, given by Radius and Height, which touches "
-           "it with its side; hollow with an Inner radius. It ends at z = 0, "
-           "where the chuck holds it; its axis is that of z";
+    return "a cylinder along the z axis in the bone, given by Radius and "
+           "Height, whose side is the contact face; hollow with an Inner "
+           "radius. It ends at z = 0, where the chuck holds it";
   }
   std::vector<std::string>
   Pin::entries() const

@@ -21,9 +21,9 @@ namespace Debond
       std::string
       description() const override
       {
-        return "a pin with a right-handed thread, a wave of the height Thread "
-               "depth from its valley to its crest, with Radius half way; "
-               "Pitch and Starts say how steep it is";
+        return "a pin with a right-handed thread, a wave with the height "
+               "Thread depth from valley to crest and Radius in the middle; "
+               "Pitch and Starts give its slope";
       }
       std::vector<std::string>
       entries() const override

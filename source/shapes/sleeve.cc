@@ -21,8 +21,9 @@ namespace Debond
       description() const override
       {
         return "a tube around the side of the implant, given by Outer radius "
-               "and Height, whose top is at z = 0; its outer face is held, and "
-               "its ends as Ends says, or it stands on a ring (Support radius)";
+               "and Height, whose top is at z = 0; its outer face is held, "
+               "and its ends as Ends says, or it stands on a plate with a "
+               "hole (Support radius)";
       }
       bool
       is_for_bone() const override

@@ -170,8 +170,9 @@ namespace Debond
 
 
 
-    /** Seconds of one processor for a run, measured (doc/scaling.md): with
-     *  multigrid each iteration of Newton's method takes some cycles. */
+    /** Seconds of one processor for a run, measured
+     * (doc/evidence/speed_and_accuracy.md, Large bones): with multigrid each
+     * iteration of Newton's method takes some cycles. */
     double
     seconds_of_multigrid(const ModelParameters &model)
     {

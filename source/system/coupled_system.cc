@@ -9,9 +9,10 @@
 #include <cmath>
 #include <sstream>
 
-// The coupled system, which stations 6 and 9 of doc/walk.md are about: two
-// bodies, the chuck and the interface between them. In the paper it is Appendix
-// A.3; what the paper leaves open is how to solve it, see doc/solution.md.
+// The coupled system, which sections 6 and 9 of doc/developers/walk.md are
+// about: two bodies, the chuck and the interface between them. In the paper it
+// is Appendix A.3; what the paper leaves open is how to solve it, see
+// doc/explanation/solution.md.
 //
 // Friction sees the bodies through the positions of the control points of the
 // two contact faces, and nothing else. Only these and the components of the
@@ -338,8 +339,8 @@ namespace Debond
 
 
 
-  // The residual at the trial state, station 6 of doc/walk.md. For each body,
-  // in its frame,
+  // The residual at the trial state, section 6 of doc/developers/walk.md. For
+  // each body, in its frame,
   //
   //   r_c = S v_c + Q^T f                           if it is linear,
   //   r_c = R_c + Q^T f - K_ci K_ii^-1 R_i          if it is Neo-Hookean,
@@ -477,7 +478,7 @@ namespace Debond
 
 
 
-  // One Newton correction, station 9 of doc/walk.md,
+  // One Newton correction, section 9 of doc/developers/walk.md,
   //
   //   (S + Q^T (df/dx) Q) dv_c = -r,
   //
@@ -715,8 +716,8 @@ namespace Debond
   // what the contact exerts on the implant must come out at its top. It is
   // computed there from K v, or from the internal forces, and not from the
   // contact forces. A step that is not in equilibrium shows here, and so does a
-  // wrong factor of S. More than 1e-6 is a warning (doc/solution.md, Checks of
-  // every step).
+  // wrong factor of S. More than 1e-6 is a warning
+  // (doc/explanation/solution.md, Threads, memory and checks).
   //
   // In the implant's frame. A linear body balances moments with reference lever
   // arms only: its equations are those of the undeformed shape. A Neo-Hookean

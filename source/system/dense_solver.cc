@@ -19,7 +19,7 @@
 //
 // The number of iterations with B depends on the stiffness of the interface and
 // not on the mesh: 3.7 for eps = 585 MPa/mm, 4.4 for 1800, and 9 for 18 000
-// (doc/solution.md).
+// (doc/explanation/solution.md).
 namespace Debond
 {
   namespace

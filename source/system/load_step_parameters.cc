@@ -18,28 +18,28 @@ namespace Debond
         "Path following",
         parameters.follow_path,
         Allowed::choice("none | slip"),
-        "`none': the program goes through the planned steps of the time, "
-        "and jumps where the path of equilibrium snaps back. `slip': it "
-        "follows that path by prescribing the mean of the sliding distance "
-        "and, of laws with strength in tension, of the opening, "
-        "while the time, and with it everything the chuck prescribes, is "
-        "found and may fall; each accepted step is a row. While "
-        "everything sticks planned steps are taken.");
+        "`none': planned steps in time; where the equilibrium path snaps "
+        "back, the program jumps. `slip': follow the path by prescribing the "
+        "mean sliding distance (with strength in tension: and opening); the "
+        "time, and with it everything prescribed, is unknown and may fall; "
+        "each accepted step is a row. While everything sticks planned steps "
+        "are taken.");
       table.add("Largest slip step",
                 parameters.largest_slip_step,
                 Allowed::number_above(0, "mm").or_word_for("auto", "0"),
                 "With Path following: largest step of the sliding distance, "
                 "and of the opening, averaged over the contact face [mm]. "
-                "`auto': a twentieth of the distance over which friction falls, 2 a_s "
-                "b_s, of a_s, or of the gap over which a bond opens, whichever "
-                "is least.");
+                "`auto': a twentieth of the smallest of 2 a_s b_s, over "
+                "which friction falls, of a_s, and of the gap over which a "
+                "bond opens.");
       table.add("Path ends at slip",
                 parameters.path_ends_at_slip,
                 Allowed::number_above(0, "mm").or_word_for("auto", "0"),
                 "With Path following: the run ends when the mean sliding "
-                "distance reaches this [mm], if not at the last time. `auto': "
-                "the radius of the implant. A moment larger than the interface can "
-                "carry has no last time: the implant would turn for ever.");
+                "distance reaches this [mm], if not at the last time. "
+                "`auto': the radius of the implant. A moment larger than the "
+                "interface can carry never reaches its last time: the "
+                "implant would turn for ever.");
     }
 
 
@@ -51,13 +51,13 @@ namespace Debond
         "Smallest step fraction",
         parameters.smallest_step_fraction,
         Allowed::number_between(1e-15, 1, ""),
-        "Smallest step as a fraction of a planned step; if a smaller one "
-        "were needed the run stops with an error.");
+        "Smallest step, as a fraction of a planned step. If a smaller one is "
+        "needed, the run stops with an error.");
       table.add("Residual tolerance",
                 parameters.residual_tolerance,
                 Allowed::number_between(1e-14, 0.1, ""),
-                "A step has converged when the residual is below this fraction "
-                "of the contact force.");
+                "Newton's method has converged when the residual is below "
+                "this fraction of the contact force.");
     }
   } // namespace
 
@@ -72,48 +72,46 @@ namespace Debond
               Allowed::list(Allowed::number_between(-1e100, 1e100, "time"),
                             2,
                             0),
-              "First time and the ends of the phases, increasing. Time is a "
-              "mere parameter of the load: nothing has inertia.");
+              "First time and the ends of the phases, increasing. Time is "
+              "only a parameter of the load: there is no inertia.");
     table.add(
       "Steps",
       steps,
       Allowed::list(Allowed::whole_number(1, 10000000), 1, 0),
-      "Number of planned steps in each phase: one number less than Times. With "
-      "Adaptive this sets the largest step. A step that turns the chuck by "
-      "more than 5 degrees is divided: works are summed over the chords of "
-      "paths.");
+      "Number of planned steps in each phase: one number fewer than Times. "
+      "With Adaptive they set the largest step. A step that turns the chuck "
+      "by more than 5 degrees is divided, to keep the work accurate.");
     table.add("Adaptive",
               adaptive,
               Allowed::choice("false | true"),
-              "Let the program choose the steps of each phase, at most as "
-              "large as the planned ones, such that the curves of torque and "
-              "forces in curve.csv, or of the place of what a force or moment "
-              "is prescribed for, cubics between the rows, keep the "
-              "Tolerance, relative to the largest value of each (where the "
-              "machine holds still to a tenth of the largest of all, if that "
-              "is more); each accepted step is a row. Steps end where "
-              "something prescribed turns back. A step that does not converge "
-              "is halved in any case.");
+              "Let the program choose the steps, at most as large as the "
+              "planned ones, so that the curves of torque and forces in "
+              "curve.csv (for a prescribed force or moment: of the "
+              "displacement) are within Tolerance, relative to the largest "
+              "value of each. For a component along which the machine stands "
+              "still, the reference is a tenth of the largest value of all, "
+              "if that is more. Each accepted step is a row. Steps end where "
+              "a prescribed motion turns back. Steps that do not converge "
+              "are halved in any case.");
     table.add("Tolerance",
               tolerance,
               Allowed::number_between(1e-7, 1, ""),
-              "Relative accuracy wanted of the torque curve. With Adaptive "
-              "that of the states at the ends of the steps and of the cubics "
-              "between them, both by estimates, which more than 0.1 would "
-              "deceive: then it is 0.1; with "
-              "Model = auto the largest difference, relative to the largest "
-              "torque, from the curve of the scene's bodies on a converged "
-              "mesh. Else not used.");
+              "Relative accuracy of the torque curve. With Adaptive: of the "
+              "states at the ends of the steps, and of the cubics between "
+              "them, both estimated; 0.1 at most is used. With Model = auto: "
+              "largest difference, relative to the largest torque, from the "
+              "curve of the scene's bodies on a converged mesh. Otherwise "
+              "not used.");
     table.add("Cyclic symmetry",
               cyclic_symmetry,
               Allowed::choice("none | auto"),
-              "`auto': where bodies, bond and load look the same after a turn "
-              "about the z axis, by 90 degrees for a coin on a block, contact "
-              "points and unknowns of one sector stand for all. Results are "
-              "the same but for rounding. `none': compute all of them. A bond "
-              "that may break on one side first needs an imperfection for "
-              "that, a Pattern or a small motion in x, and is computed as a "
-              "whole then.");
+              "`auto': if bodies, bond and load are unchanged by a turn "
+              "about the z axis (by 90 degrees for a coin on a block), only "
+              "one sector of contact points and unknowns is computed. "
+              "Results differ by rounding only. `none': compute all. A bond "
+              "that is to break on one side first needs an imperfection, "
+              "such as a Pattern or a small motion in x; it is then computed "
+              "as a whole.");
     declare_path(*this, table);
     declare_iteration(*this, table);
     table.leave_subsection();

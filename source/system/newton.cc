@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <sstream>
 
-// Station 5 of doc/walk.md: deal.II's solve_nonlinear_timestep of step-44 for
-// two bodies and their interface. The tangent of the interface is exact, so
-// that the residual falls quadratically, with two exceptions that make up most
-// of this file: the stiffness of a Neo-Hookean bulk is that of an earlier
-// state, and friction has a corner between stick and slip.
+// Section 5 of doc/developers/walk.md: deal.II's solve_nonlinear_timestep of
+// step-44 for two bodies and their interface. The tangent of the interface is
+// exact, so that the residual falls quadratically, with two exceptions that
+// make up most of this file: the stiffness of a Neo-Hookean bulk is that of an
+// earlier state, and friction has a corner between stick and slip.
 namespace Debond
 {
   namespace
@@ -85,8 +85,8 @@ namespace Debond
     // A line search, for a law with corners: between stick and slip the
     // residual is continuous, but its slope is not, and the tangent of one side
     // may overshoot on the other for ever. With an interface much stiffer than
-    // the bodies it does, and smaller steps can make it worse (doc/solution.md,
-    // Cycles of stick and slip).
+    // the bodies it does, and smaller steps can make it worse
+    // (doc/explanation/solution.md, Cycles).
     //
     // Takes back half of the correction until the residual has become smaller,
     // each time for one residual and no linear solve; returns the residual
@@ -164,10 +164,10 @@ namespace Debond
     for (unsigned int iteration = 0; true; ++iteration)
       {
         // The residual r = S v_c + Q^T f(v_c) of the state that the last
-        // correction led to, by the law of each point (station 7 of
-        // doc/walk.md). In the very first round closed points may have to
-        // stick, whatever their traction: with the tangent of sticking points
-        // the first correction cannot make them cycle.
+        // correction led to, by the law of each point (section 7 of
+        // doc/developers/walk.md). In the very first round closed points may
+        // have to stick, whatever their traction: with the tangent of sticking
+        // points the first correction cannot make them cycle.
         ContactPointMode mode = options.points;
         mode.stick_first      = mode.stick_first && iteration == 0;
         const auto residual =

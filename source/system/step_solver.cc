@@ -4,10 +4,10 @@
 #include <cmath>
 #include <sstream>
 
-// Station 4 of doc/walk.md: the state at the end of a step. The paper goes
-// through 100 to 2500 load steps and does not say what happens when one does
-// not converge. Here a failure is met first by another start of Newton's
-// method, and by a smaller step only then, for which Simulation asks.
+// Section 4 of doc/developers/walk.md: the state at the end of a step. The
+// paper goes through 100 to 2500 load steps and does not say what happens when
+// one does not converge. Here a failure is met first by another start of
+// Newton's method, and by a smaller step only then, for which Simulation asks.
 namespace Debond
 {
   // Row 0 is a step like any other, but with no time before it: the first time
@@ -46,9 +46,9 @@ namespace Debond
   std::vector<StepSolver::Attempt>
   StepSolver::attempts(const Step &step) const
   {
-    // Along a path (doc/solution.md, Snap-back) the branch is the one that the
-    // line points to; another start would leave the direction in which the path
-    // goes.
+    // Along a path (doc/explanation/stability.md, Following the path) the
+    // branch is the one that the line points to; another start would leave the
+    // direction in which the path goes.
     if (step.by_slip()) // without a prediction nothing slides
       return {step.extrapolate ? extrapolated : from_rest};
     std::vector<Attempt> list;
@@ -192,11 +192,11 @@ namespace Debond
 
     // What became of it. Where the law falls so steeply that the point's
     // equations have more than one solution, Newton's method finds any of them:
-    // p |d mu/d g_s| / eps_t < 1 is needed at every point (doc/model.md,
-    // Uniqueness), with p at the end of the step and the steepest slope that
-    // the law still has before the point. With the paper's law, Eq. (13), it is
-    // pi phi_0 (mu_ub - mu_b) / (4 a_s b_s). It is judged after each attempt
-    // because p is not known before.
+    // p |d mu/d g_s| / eps_t < 1 is needed at every point
+    // (doc/explanation/stability.md, One point), with p at the end of the step
+    // and the steepest slope that the law still has before the point. With the
+    // paper's law, Eq. (13), it is pi phi_0 (mu_ub - mu_b) / (4 a_s b_s). It is
+    // judged after each attempt because p is not known before.
     StepResult result;
     static_cast<NewtonResult &>(result) = solve_newton(system, options);
     result.interface                    = system.interface.summarise();

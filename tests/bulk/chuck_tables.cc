@@ -110,7 +110,6 @@ check_expression(const std::string &what, const Overrides &bodies)
                      scene_text,
                      with(force,
                           {z + "File = force.csv",
-                           z + "File over = angle",
                            z + "Value = -(0.2 + 0.8 * min(t, 1)) * table"}))),
          1e-10);
 
@@ -122,8 +121,7 @@ check_expression(const std::string &what, const Overrides &bodies)
                          scene_text,
                          with(force,
                               {z + "File = force.csv",
-                               z + "File over = angle",
-                               z + "Value = -(0.2 + 0.8 * min(t, 1)) * table",
+                                                              z + "Value = -(0.2 + 0.8 * min(t, 1)) * table",
                                twist + "Value = max(table, 0)",
                                twist + "File = angle.csv"}))),
     1e-10);
@@ -176,8 +174,7 @@ check_rerun()
 
 const Overrides growing{z + "Control = force",
                         z + "File = growing.csv",
-                        z + "File over = angle",
-                        z + "Value = -(0.2 + 0.8 * min(t, 1)) * table"};
+                                                z + "Value = -(0.2 + 0.8 * min(t, 1)) * table"};
 
 // The tables of growing.csv over the angle, and of its angles over time.
 void
@@ -209,8 +206,7 @@ check_steps()
                     run_scene("time",
                               scene_text,
                               with(with(growing, adaptive),
-                                   {z + "File = over_time.csv",
-                                    z + "File over = time"}))),
+                                   {z + "File = over_time.csv"}))),
          1e-8);
   double              off = 0;
   const MonotoneCurve curve({0, 0.5, 1, 2, 3}, {30, 33, 42, 70, 75});

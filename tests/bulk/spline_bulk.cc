@@ -99,7 +99,9 @@ subsection Implant
 end
 subsection Interface
   set Quadrature points = 5
-  set Slip direction    = trial
+end
+subsection Expert
+  set Slip direction = trial
 end
 subsection Chuck
   subsection Press

@@ -1,7 +1,7 @@
 // What an expression is where a part of it has no value, or one that is too
 // large: compared with what is written down beside it, from the rules in
-// doc/parameters.md. Each of them once passed for a number, or is next to one
-// that did.
+// doc/reference/scene_file.md. Each of them once passed for a number, or is
+// next to one that did.
 
 #include <debond/input/expression_parser.h>
 #include <debond/support/input_error.h>

@@ -112,7 +112,7 @@ check_means()
              .mean > 0.);
   BondingParameters half = expression("x > 0");
   half.initial_bonding   = 0.6;
-  report("  Initial bonding multiplies, deviation of the mean",
+  report("  Bonding degree multiplies, deviation of the mean",
          std::abs(make_pattern(half, coin(6)).report().mean - 0.3),
          1e-12);
   report("  r < R/2, deviation of the mean",

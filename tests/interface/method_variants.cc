@@ -1,8 +1,8 @@
 // Variants of the method that are there to be compared with go wrong as they
 // are known to. What is right is 50.32 and 34.70 N mm, tests/comparison/numpy
-// with main_scene.prm; what the variants make of it is what stability.md
-// states. The checks of accepted states notice some of it; what else the
-// program warns of is here, too.
+// with main_scene.prm; what the variants make of it is what
+// doc/evidence/stability.md states. The checks of accepted states notice some
+// of it; what else the program warns of is here, too.
 
 #include <fstream>
 #include <sstream>

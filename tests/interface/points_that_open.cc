@@ -46,7 +46,8 @@ lifted(const std::array<double, 2>    &before,
   };
   std::vector<std::string> entries = {
     "Implant/Cells=6, 2",
-    "Interface/Friction coefficient=" + std::to_string(mu),
+    "Interface/Friction coefficient" +
+      std::string(others.empty() ? "=" : " broken=") + std::to_string(mu),
     "Interface/Normal stiffness=" + std::to_string(eps),
     "Chuck/Press/Value=0.0049 * min(t, 1) - 0.0098 * max(t - 2, 0)",
     "Chuck/Translation x/Value=" + shift(before[0], while_lifted[0]),

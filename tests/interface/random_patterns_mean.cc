@@ -96,7 +96,7 @@ Ensemble
 run_ensemble(const std::string &material)
 {
   Ensemble ensemble;
-  ensemble.uniform = run(material, {"Initial bonding=0.55"});
+  ensemble.uniform = run(material, {"Bonding degree=0.55"});
   for (const double torque : ensemble.uniform)
     grow(ensemble.largest, torque);
   std::vector<Curve> curves;

@@ -288,7 +288,7 @@ test_other_directories()
   put("results/foundation/parameters.prm",
       small_scene({"Model=foundation",
                    "Interface/Bonding/Pattern=homogeneous",
-                   "Interface/Bonding/File="})
+                   "Interface/Bonding/File=none"})
         .completed_parameters);
   print_error<InputError>("A closed form", [] {
     find_interrupted_run("results/foundation", "", {});

@@ -150,7 +150,7 @@ check_triangle()
                              settings())["initial_stiffness_Nmm_per_rad"],
         47 / (1 * radian));
 
-  std::cout << "The entry Full sliding angle is what E_fric is counted from"
+  std::cout << "The entry Friction energy from angle is what E_fric is counted from"
             << std::endl;
   CurveSettings given          = settings();
   given.full_sliding_angle_deg = 4;

@@ -147,7 +147,7 @@ def test_run(directory):
     for remark in summary["remarks"] + summary["warnings"]:
         check(seen.count(remark) == 1, f"said {seen.count(remark)} times: {remark}")
     for said in ("finished", "published T_max = 53.8 N mm", "published T_inf = 36.8 N mm", "coin, radius 2.5 mm, height 3 mm",
-                 "E = 113000 MPa", "size 12.5 × 12.5 × 5 mm", "-0.0049 * min(t, 1)", "10 * max(t - 1, 0)", "Rotation angle [°]",
+                 "E = 113000 MPa", "size 12.5 × 12.5 × 5 mm", "0.0049 * min(t, 1)", "10 * max(t - 1, 0)", "Rotation angle [°]",
                  "Torque T [N mm]", "command", summary["provenance"]["commit"]):
         check(said in seen, f"the page does not say: {said}")
     largest = max(rows, key=lambda row: float(row["torque_Nmm"]))

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What doc/python.md says of pip, in a copy of the project: a virtual environment, the module compiled by pip, one curve.
+# What doc/howto/python.md says of pip, in a copy of the project: a virtual environment, the module compiled by pip, one curve.
 # Usage: pip.sh PYTHON PROJECT SCRATCH
 set -euo pipefail
 python=$1 project=$2 scratch=$3

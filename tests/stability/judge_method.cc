@@ -18,7 +18,8 @@
 //   judge_method SCENE.prm METHOD DIRECTORY
 //
 // Results go to the directory. Prints the judgements and, as the last line, the
-// row of doc/stability.md. Exit code 0 if the outcome is the expected one.
+// row of doc/evidence/stability.md. Exit code 0 if the outcome is the expected
+// one.
 
 #include <debond/campaigns/run_scene.h>
 #include <debond/scene/scene.h>

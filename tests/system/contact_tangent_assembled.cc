@@ -88,7 +88,7 @@ check(const std::string    &name,
       const bool rotation = (component[0] == 'R');
       text += "\nsubsection Chuck\nsubsection " + std::string(component) +
               "\nset Control = " + (rotation ? "moment" : "force") +
-              "\nset Value = 1\nset Stiffness = 0\nend\nend\n";
+              "\nset Value = 1\nset Stiffness = none\nend\nend\n";
     }
   const Scene            scene = Scene::from_text(text);
   CoupledSystem          system(scene);

@@ -11,8 +11,8 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 const char *const main_scene = R"(
 subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
+  subsection Translation z
+    set Value = -0.0049 * min(t, 1)
   end
   subsection Rotation z
     set Value = max(t - 1, 0)
@@ -41,10 +41,10 @@ check_force_instead_of_displacement(const std::string &material)
   const double       force = -prescribed.system.chuck_forces()[2];
   std::ostringstream load;
   load.precision(17);
-  load << "Chuck/Press/Value = " << force << " * min(t, 1)";
+  load << "Chuck/Translation z/Value = -" << force << " * min(t, 1)";
 
   auto overrides = materials;
-  overrides.push_back("Chuck/Press/Control = force");
+  overrides.push_back("Chuck/Translation z/Control = force");
   overrides.push_back(load.str());
   DrivenScene loaded(main_scene, overrides);
   loaded.advance_to(1);

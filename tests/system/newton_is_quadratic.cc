@@ -59,8 +59,8 @@ check(const std::string &name,
         set Value = max(t - 1, 0)
       end
     end)" + changes,
-                     {"Chuck/Press/Value=0.0049 *"
-                      "min(t, 1) + " +
+                     {"Chuck/Press/Value=0.0049 * "
+                      "min(t, 1) - " +
                       std::to_string(lift / angle) + " * max(t - 1, 0)"});
 
   CoupledSystem system(scene);

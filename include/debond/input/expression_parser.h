@@ -13,9 +13,9 @@ namespace Debond
 
   /**
    * Reads an expression in muParser's language, with the functions that
-   * doc/parameters.md lists, in @p variables, names separated by commas.
-   * Constants are `pi` and `R` = @p radius [mm]. Throws InputError with the
-   * expression and the parser's own words if it is invalid.
+   * doc/reference/scene_file.md lists, in @p variables, names separated by
+   * commas. Constants are `pi` and `R` = @p radius [mm]. Throws InputError with
+   * the expression and the parser's own words if it is invalid.
    *
    * Its value is not a number where a part of it has none, unless that part is
    * not chosen: by `if`, `a ? b : c`, or because the left of `&&` or `||`

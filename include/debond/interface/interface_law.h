@@ -115,7 +115,7 @@ namespace Debond
     /** `Friction update = explicit': mu is that at which the step begins,
      *  whatever the distance, so that a softening bond lags behind by a step.
      *  It has no slope and is never ambiguous. Works are still those of the
-     *  law. See doc/stability.md. */
+     *  law. See doc/evidence/stability.md. */
     bool explicit_friction = false;
 
     /** Whether friction depends on the duration of a step. */

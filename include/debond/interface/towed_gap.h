@@ -42,7 +42,7 @@ namespace Debond
    * The path is a chord or, where the step turns it, an arc; while it slides L
    * is the mean of its lengths at the beginning and the end of sliding. Where
    * neither changes the result does not depend on the size of the step, else it
-   * is of second order in it. doc/model.md has the derivation.
+   * is of second order in it. doc/explanation/contact.md has the derivation.
    */
   struct TowedGap
   {

@@ -201,9 +201,9 @@ namespace Debond
    * one side, it is relative to a tenth of the largest of all forces if that is
    * more, and of all motions for a load that is constant.
    *
-   * doc/solution.md says how both errors are estimated. In the first step of a
-   * phase the rate at its beginning is not known: it is a parabola, whose error
-   * a trial in the middle of the step tells.
+   * doc/explanation/solution.md says how both errors are estimated. In the
+   * first step of a phase the rate at its beginning is not known: it is a
+   * parabola, whose error a trial in the middle of the step tells.
    */
   class AdaptiveStepping : public StepControl
   {

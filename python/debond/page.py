@@ -7,7 +7,7 @@ import os
 
 from debond.files import write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
-from debond.page_data import NoResults, members, number, short, shown, split_unit, table_of, with_unit
+from debond.page_data import NoResults, members, number, short, shown, split_unit, symbols, table_of, with_unit
 from debond.page_run import context_of_run
 from debond.page_specimens import context_of_specimens
 
@@ -20,6 +20,7 @@ KINDS = (("study.csv", "study.html", context_of_study), ("calibration.json", "ca
 def page_of(directory):
     """The text of the page of a directory of results. Raises NoResults if it has none, ImportError without Jinja2."""
     import jinja2
+    import markupsafe
 
     for file, template, context in KINDS:
         if os.path.exists(os.path.join(directory, file)):
@@ -28,6 +29,7 @@ def page_of(directory):
                                              undefined=jinja2.StrictUndefined)
             environment.globals.update(members=members, number=number, short=short, shown=shown, split_unit=split_unit,
                                        table_of=table_of, with_unit=with_unit)
+            environment.filters["symbols"] = lambda text: markupsafe.Markup(symbols(str(markupsafe.escape(text))))
             return environment.get_template(template).render(context(directory))
     raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, study.csv, calibration.json or "
                     "specimens.json)")

@@ -54,7 +54,7 @@ class Plot:
     """Curves over common axes, whose labels and units are given: ("Rotation angle", "°")."""
 
     def __init__(self, x, y, about, high=HIGH):
-        self.x, self.y, self.about, self.high, self.series, self.levels = x, y, about, high, [], []
+        self.x, self.y, self.about, self.high, self.series, self.levels, self.labels = x, y, about, high, [], [], []
 
     def add(self, name, kind, xs, ys, colour, most=4000):
         """Adds a "line", "points", single large "marks", or a "band" between the first half of the rows and the second."""
@@ -72,6 +72,28 @@ class Plot:
     def level(self, name, colour, x=None, y=None):
         """A dashed line all across at one x or one y."""
         self.levels.append({"name": name, "kind": "level", "x": x, "y": y, "colour": colour})
+
+    def label(self, text, x=None, y=None):
+        """A text at a mark, or along a line at one x or one y. What has one is not in the legend."""
+        self.labels.append({"text": text, "x": x, "y": y})
+
+    def placed_labels(self, px, py):
+        """The texts with places, and where they are from there: those of lines along these, those of marks one below the
+        other, that of the last mark on top."""
+        placed, lowest, foot = [], 0., self.high - 8
+        for one in sorted(self.labels, key=lambda one: -math.inf if one["x"] is None else -one["x"]):
+            x, y = WIDE if one["x"] is None else px(one["x"]), self.high if one["y"] is None else py(one["y"])
+            is_at_mark, to_left = None not in (one["x"], one["y"]), x > 0.6 * WIDE
+            if is_at_mark:
+                lowest = min(max(y + 26, lowest + 20), self.high - 8)
+                dy = lowest - y
+            elif one["x"] is None:
+                dy = -6
+            else:
+                dy, foot = foot - y, foot - 20
+            placed.append({**one, "px": LEFT + x, "py": TOP + y, "dx": -5 if to_left else 5, "dy": round(dy, 1),
+                           "anchor": "end" if to_left else "start", "leads": is_at_mark})
+        return placed
 
     def limits(self):
         """Those of the axes: all that is drawn, from 0 where nothing is negative."""
@@ -100,4 +122,5 @@ class Plot:
             {"name": one["name"], **{axis: [float(f"{value:.7g}") for value in one[axis]] for axis in "xy"}}
             for one in self.series if one["kind"] in ("line", "points")]}
         return {"x": self.x, "y": self.y, "about": self.about, "shapes": shapes, "levels": self.levels, "data": data,
+                "labels": self.placed_labels(lambda x: (x - left) * fx, lambda y: (high - y) * fy),
                 "ticks": (ticks(left, right), ticks(low, high, most=7 * self.high / HIGH)), "many": False, "notes": []}

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 
 from debond.errors import InputError
 
@@ -125,6 +126,13 @@ def members(summary, rows, least=0.):
     largest = max((abs(value) for value in values if math.isfinite(value)), default=0)
     return [(row[1], row[2], with_unit(value, row[4] if len(row) > 3 else split_unit(row[0])[1]))
             for row, value in zip(rows, values) if math.isfinite(value) and abs(value) >= least * largest]
+
+
+def symbols(text):
+    """Names of quantities as a page shows them: "T_max" with a subscript, "phi" as a Greek letter."""
+    greek = {"theta": "θ", "phi": "φ", "mu": "μ"}
+    return re.sub(r"(?<![-\w])(theta|phi|mu|[TgabeDWw])(?:_(\w+))?(?!\w)", lambda name: greek.get(name[1], name[1]) + (
+        f"<sub>{'∞' if name[2] == 'inf' else name[2]}</sub>" if name[2] else ""), text)
 
 
 def unique(texts):

@@ -1,22 +1,27 @@
-"""Maps of the contact face on pages of results: values on a grid as small pictures, smooth between the places of the grid."""
+"""Maps of the contact face on pages of results: values on a grid as small pictures, linear between the places of the grid."""
 
 import base64
-import functools
-import itertools
 import math
 import struct
 import zlib
 
 from debond.page_data import n_rows, number, numbers, read_table, short, with_unit
 
-QUANTITIES = (("pressure_MPa", "Pressure", "MPa"), ("slip_mm", "Sliding distance g_s", "mm"), ("phi", "Bonding state phi", ""),
-              ("mu", "Friction coefficient mu", ""), ("left_by_opening", "Bond left by opening", ""),
-              ("left_by_slip", "Bond left by slip", ""),
-              ("mode_deg", "Mode of the traction: 0 opening, 90 sliding", "°"))
-STATES = (("open", (208, 208, 208)), ("sticks", (44, 30, 92)), ("slides", (224, 138, 30)), ("pulled, without friction", (58, 125, 68)))
-COLOURS = ((44, 30, 92), (208, 74, 98), (251, 233, 160))    # of the lowest, the middle and the highest value
-FINER = 2                                                   # pixels of a place of the grid, along each side
-SAME = 1e-3                                                 # what differs by less of the largest value is not told apart
+# colour maps from the lowest value to the highest, of each quantity the one that it has in all pictures of debond
+VIRIDIS = ("#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725")
+BROWNS = ("#ffffe5", "#fff7bc", "#fee391", "#fec44f", "#fe9929", "#ec7014", "#cc4c02", "#8c2d04")
+BLUES = ("#f7fbff", "#deebf7", "#c6dbef", "#9ecae1", "#6baed6", "#4292c6", "#2171b5", "#084594")
+REDS = ("#fff5f0", "#fee0d2", "#fcbba1", "#fc9272", "#fb6a4a", "#ef3b2c", "#cb181d", "#99000d")  # of pressures below 0
+#: Columns, words, units, colours, and the ends of the range that do not depend on the values.
+QUANTITIES = (("pressure_MPa", "Pressure", "MPa", BLUES, None, None),
+              ("slip_mm", "Sliding distance gₛ", "mm", BROWNS, 0., None),
+              ("phi", "Bonding state φ", "", VIRIDIS, 0., 1.), ("mu", "Friction coefficient μ", "", VIRIDIS, None, None),
+              ("left_by_opening", "Bond left by opening", "", VIRIDIS, 0., 1.),
+              ("left_by_slip", "Bond left by slip", "", VIRIDIS, 0., 1.),
+              ("mode_deg", "Mode of the traction: 0 opening, 90 sliding", "°", VIRIDIS, 0., 90.))
+STATES = (("open", "#d8d8d8"), ("sticks", "#fde725"), ("slides", "#6fb3bf"), ("pulled, without friction", "#b5367a"))
+FINER = 2    # pixels of a place of the grid, along each side
+SAME = 1e-3  # what differs by less of the largest value is not told apart
 
 
 class Grid:
@@ -33,78 +38,78 @@ class Grid:
             math.isnan(value) == (math.hypot(x, y) > self.half_x) for x, y, value in zip(self.xs, self.ys, values))
 
 
-@functools.lru_cache(maxsize=None)
-def windows(n, width):
-    """Of the pixels of n places: the first and the last place of the window around each, and the shares of these."""
-    pad = math.ceil(width / 2) + 1
-    ends = [[(k + 0.5) / FINER + pad + side * width / 2 for side in (-1, 1)] for k in range(n * FINER)]
-    return pad, [(int(low), int(high), low - int(low), high - int(high)) for low, high in ends]
+def filled(grid, values, of_known):
+    """The same, two places into the gaps: there, what is made of the known places around, the nearest first."""
+    for _ in range(2):
+        before, values = values, list(values)
+        for k in (k for k, value in enumerate(before) if value != value):
+            i, j = k % grid.nx, k // grid.nx
+            known = [before[k + di + dj * grid.nx]
+                     for di, dj in ((-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1))
+                     if 0 <= i + di < grid.nx and 0 <= j + dj < grid.ny]
+            known = [value for value in known if value == value]
+            values[k] = of_known(known) if known else math.nan
+    return values
 
 
-def summed(values, width):
-    """Sums over this many places around each pixel. Values that stand at the nearest places around points so far apart become
-    those that are linear between the points, if divided by how many there are."""
-    pad, ends = windows(len(values), width)
-    padded = [*[0.] * pad, *values, *[0.] * pad]
-    sums = list(itertools.accumulate(padded, initial=0.))
-    return [sums[j] + padded[j] * t - sums[i] - padded[i] * s for i, j, s, t in ends]
+def lines_of(grid, values):
+    return [values[j * grid.nx:(j + 1) * grid.nx] for j in range(grid.ny)]
 
 
-def widths_of(grid, maps):
-    """Over how many places, along x and along y, all values stay the same in the middle of the face: the nearest points of the
-    interface lie so far apart."""
-    def width(indices):
-        rows = [row for row in zip(*([values[k] for k in indices] for values in maps)) if row[0] == row[0]]
-        changes = sum(a != b for a, b in zip(rows, rows[1:]))
-        return max(1, min(len(rows) / (changes + 1), len(indices) / 6))
-    i, j = grid.nx // 2, grid.ny // 2
-    return width(range(j * grid.nx, (j + 1) * grid.nx)), width(range(i, grid.nx * grid.ny, grid.nx))
+def finer(line):
+    """Linear between places that are FINER pixels wide."""
+    return [z for a, b, c in zip([line[0], *line], line, [*line[1:], line[-1]]) for z in ((a + 3 * b) / 4, (3 * b + c) / 4)]
 
 
-def picture(grid, values, low, high, widths, is_round):
+def picture(grid, values, low, high, palette, is_round):
     """A PNG file of the values as a data URI; the page cuts round faces out."""
-    def smooth(column_of):
-        rows = (summed(list(map(column_of, values[j * grid.nx:(j + 1) * grid.nx])), widths[0]) for j in range(grid.ny))
-        return zip(*(summed(column, widths[1]) for column in zip(*rows)))
     scale = 254.99 / (high - low)
-    heights = smooth(lambda value: (value - low) * scale if value == value else 0.)
-    lines = [bytearray(255 if n < 1e-6 else min(254, max(0, int(z / n))) for z, n in zip(*both))
-             for both in zip(heights, smooth(lambda value: float(value == value)))]
+    rows = map(finer, lines_of(grid, filled(grid, values, lambda known: sum(known) / len(known))))
+    lines = [bytearray(min(254, max(0, int((z - low) * scale))) if z == z else 255 for z in line)
+             for line in zip(*map(finer, zip(*rows)))]
     for k in () if is_round else (k for k, value in enumerate(values) if value != value):
         for line in lines[k // grid.nx * FINER:(k // grid.nx + 1) * FINER]:
             line[k % grid.nx * FINER:(k % grid.nx + 1) * FINER] = b"\xff" * FINER
-    return "data:image/png;base64," + base64.b64encode(png(grid.nx * FINER, lines[::-1], colours_of_values())).decode()
+    return png(lines, palette)
 
 
-def picture_of_states(grid, values):
+def picture_of_states(grid, values, is_round):
     """The same of states, each of which has its colour."""
-    lines = [bytearray(255 if value != value else int(value) for value in values[j * grid.nx:(j + 1) * grid.nx])
-             for j in range(grid.ny)]
-    palette = b"".join(bytes(colour) for _, colour in STATES)
-    return "data:image/png;base64," + base64.b64encode(png(grid.nx, lines[::-1], palette.ljust(765, b"\0"))).decode()
+    if is_round:
+        values = filled(grid, values, lambda known: known[0])
+    return png([bytearray(255 if value != value else int(value) for value in line) for line in lines_of(grid, values)],
+               [colour for _, colour in STATES])
 
 
-def colours_of_values():
-    """A palette of 255 colours, from that of the lowest value to that of the highest."""
-    palette = bytearray()
-    for k in range(255):
-        i, t = min(k // 127, 1), (k - 127 * min(k // 127, 1)) / 127
-        palette += bytes(round(a + (b - a) * min(t, 1)) for a, b in zip(COLOURS[i], COLOURS[i + 1]))
-    return bytes(palette)
+def palette_of(colours, low, high):
+    """The colours of 255 values between both ends of a range. White is 0 where pressures are below it, and colours are as
+    strong on both of its sides."""
+    first, last = 0., 1.
+    if colours is BLUES and low < 0:
+        colours, largest = (*REDS[:0:-1], "#ffffff", *BLUES[1:]), max(-low, high)
+        first, last = (low / largest + 1) / 2, (high / largest + 1) / 2
+    channels = [[int(colour[k:k + 2], 16) for k in (1, 3, 5)] for colour in colours]
+
+    def mixed(t):
+        i = min(int(t), len(channels) - 2)
+        return "#" + "".join(f"{round(a + (b - a) * (t - i)):02x}" for a, b in zip(*channels[i:i + 2]))
+    return [mixed((first + (last - first) * k / 254) * (len(channels) - 1)) for k in range(255)]
 
 
-def png(width, lines, palette):
-    """A PNG file with a palette, and 255 as a transparent colour."""
-    chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, len(lines), 8, 3, 0, 0, 0)),
-              (b"PLTE", palette + b"\xff" * 3), (b"tRNS", b"\xff" * 255 + b"\0"),
-              (b"IDAT", zlib.compress(b"".join(b"\0" + line for line in lines), 6)), (b"IEND", b""))
-    return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(content)) + kind + content +
-                                          struct.pack(">I", zlib.crc32(kind + content)) for kind, content in chunks)
+def png(lines, palette):
+    """A PNG file with a palette as a data URI; lines from below, 255 is transparent."""
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", len(lines[0]), len(lines), 8, 3, 0, 0, 0)),
+              (b"PLTE", bytes.fromhex("".join(palette).replace("#", "")).ljust(765, b"\0") + b"\xff" * 3),
+              (b"tRNS", b"\xff" * 255 + b"\0"),
+              (b"IDAT", zlib.compress(b"".join(b"\0" + line for line in lines[::-1]), 6)), (b"IEND", b""))
+    return "data:image/png;base64," + base64.b64encode(
+        b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(content)) + kind + content +
+                                        struct.pack(">I", zlib.crc32(kind + content)) for kind, content in chunks)).decode()
 
 
-def maps_of(path):
+def maps_of(path, without=()):
     """What the page shows of maps.csv, which has rows for each event: for each quantity its pictures, and in words the maps
-    that need none."""
+    that need none; not of some columns."""
     table = read_table(path)
     if not n_rows(table):
         return []
@@ -113,19 +118,24 @@ def maps_of(path):
     grid = Grid(*(numbers(table[name][:size]) for name in ("x_mm", "y_mm")))
     turns = any(number(angle) for _, angle, _ in events)
     places = [(f"{short(angle, 3)}°" if turns else f"time {short(time)}", event) for event, angle, time in events]
-    shown = [one for one in QUANTITIES if one[0] in table]
-    quantities = [[numbers(table[name][k * size:(k + 1) * size]) for k in range(len(events))] for name, _, _ in shown]
-    widths = widths_of(grid, [values for maps in quantities for values in maps])
-    result = [maps_of_quantity(grid, places, maps, widths, words, unit) for maps, (_, words, unit) in zip(quantities, shown)]
+    result = []
+    for name, *about in QUANTITIES:
+        if name in table and name not in without:
+            values = numbers(table[name])
+            result.append(maps_of_quantity(grid, places, [values[k * size:(k + 1) * size] for k in range(len(events))], *about))
     if "state" in table:
         states = numbers(table["state"])
         result.append(maps_of_states(grid, places, [states[k * size:(k + 1) * size] for k in range(len(events))]))
     return result
 
 
-def maps_of_quantity(grid, places, maps, widths, words, unit):
-    """The pictures of one quantity at all events, without those that are all of one value or the same as the one before."""
+def maps_of_quantity(grid, places, maps, words, unit, colours, least, most):
+    """The pictures of one quantity at all events, without those that are all of one value or the same as the one before. All
+    have the same range of colours."""
     figures, notes, before = [], {}, None
+    all_known = [value for values in maps for value in values if value == value] or [0.]
+    least, most = min(all_known) if least is None else least, max(all_known) if most is None else most
+    palette = palette_of(colours, least, most) if most > least else []
     for (place, event), values in zip(places, maps):
         known = [value for value in values if value == value]
         if not known:
@@ -138,13 +148,18 @@ def maps_of_quantity(grid, places, maps, widths, words, unit):
             notes.setdefault(f"is the same, to 0.1 %, as at {before[0]}", []).append(place)
         else:
             before, is_round = (place, values), grid.is_round(values)
-            figures.append({"place": place, "event": event, "low": short(low, 3), "high": short(high, 3), "unit": unit,
-                            "round": is_round, "image": picture(grid, values, low, high, widths, is_round)})
+            figures.append({"place": place, "event": event, "low": short(low, 3), "high": with_unit(high, unit, 3),
+                            "round": is_round, "image": picture(grid, values, least, most, palette, is_round)})
     if len(notes) == 1 and not figures:
         notes = [f"It {text}{' at all of these times' * (len(maps) > 1)}." for text in notes]
     else:
         notes = [f"At {', '.join(at)} it {text}." for text, at in notes.items()]
-    return {"words": words, "unit": unit, "figures": figures, "notes": notes, "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
+    if figures and colours is BLUES and least < 0:
+        notes.append("Red is tension.")
+    return {"words": words, "unit": unit, "figures": figures, "notes": notes,
+            "low": short(least, 3), "high": with_unit(most, unit, 3),
+            "gradient": ", ".join(palette[254 * k // 32] for k in range(33 if palette else 0)),
+            "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
             "events": [f"{place}: {event}" for place, event in places], "states": []}
 
 
@@ -156,7 +171,9 @@ def maps_of_states(grid, places, maps):
             notes.append(f"At {place} it is the same.")
         elif any(value == value for value in values):
             before = values
-            figures.append({"place": place, "event": event, "round": grid.is_round(values), "image": picture_of_states(grid, values)})
+            is_round = grid.is_round(values)
+            figures.append({"place": place, "event": event, "round": is_round, "image": picture_of_states(grid, values, is_round)})
     met = sorted({int(value) for values in maps for value in values if value == value})
-    return {"words": "State", "unit": "", "figures": figures, "notes": notes, "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
-            "events": [], "states": [(STATES[k][0], "#%02x%02x%02x" % STATES[k][1]) for k in met]}
+    return {"words": "State", "unit": "", "figures": figures,
+            "notes": [*notes, "A cell of one colour is the area of a quadrature point."], "events": [],
+            "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}", "states": [STATES[k] for k in met]}

@@ -1,5 +1,6 @@
 """The page of one run."""
 
+import math
 import os
 
 from debond.page_curve import Plot, at
@@ -30,19 +31,25 @@ def reference_of(directory, axes):
     return columns_of(os.path.join(directory, "reference.csv"), axes)
 
 
-def add_marks_of_torque(plot, xs, ys, summary, published):
-    """Angles of the summary as dots on the curve, published values as dashed lines."""
-    for member, words, colour in (("theta_max_deg", "largest torque", "#2c1e5c"),
-                                  ("theta_full_deg", "end of the flat peak", "#e08a1e"),
-                                  ("theta_debonding_deg", "the bond has begun to break", "#3a7d44")):
+def add_mark(plot, words, x, y):
+    """A dot on the curve, with a label."""
+    if math.isfinite(x) and math.isfinite(y):
+        plot.add(f"{words}: {with_unit(y, plot.y[1])} at {with_unit(x, plot.x[1])}", "marks", [x], [y], "#222222")
+        plot.label(words, x, y)
+
+
+def add_marks_of_torque(plot, xs, ys, summary, reference):
+    """Angles of the summary as dots on the curve, reference marks of the scene as dashed lines."""
+    for member, words in (("theta_max_deg", "largest torque"), ("theta_full_deg", "end of flat peak"),
+                          ("theta_debonding_deg", "bond begins to break")):
         angle = number(summary.get(member))
-        torque = at(xs, ys, angle)
-        plot.add(f"{words}: {with_unit(torque, 'N mm')} at {short(angle)}°", "marks", [angle], [torque], colour)
-    kinds = (("T_max", "y", "N mm", "#2c1e5c"), ("T_inf", "y", "N mm", "#2a78b0"), ("theta_lin", "x", "°", "#8e4585"),
-             ("theta_max", "x", "°", "#6b6b6b"))
-    for (symbol, axis, unit, colour), value in zip(kinds, map(number, published.split(","))):
+        add_mark(plot, words, angle, at(xs, ys, angle))
+    kinds = (("Tₘₐₓ", "y"), ("T∞", "y"), ("θₗᵢₙ", "x"), ("θₘₐₓ", "x"))
+    for (symbol, axis), value in zip(kinds, map(number, reference.split(","))):
         if value == value:
-            plot.level(f"published {symbol} = {with_unit(value, unit)}", colour, **{axis: value})
+            name = f"reference {symbol} = {with_unit(value, getattr(plot, axis)[1])}"
+            plot.level(name, "#888888", **{axis: value})
+            plot.label(name, **{axis: value})
 
 
 def curve_of(directory, summary, entries):
@@ -51,12 +58,11 @@ def curve_of(directory, summary, entries):
     x, y = labels_of(axes)
     plot, (xs, ys) = Plot(x, y, "curve of the run"), columns_of(curve_file(directory), axes)
     plot.add("reference", "points", *reference_of(directory, axes), "#555555")
-    plot.add("debond", "line", xs, ys, "#c03028")
+    plot.add("debond", "line", xs, ys, "#0072b2")
     if "curve" not in summary:
         add_marks_of_torque(plot, xs, ys, summary, entries.get("Output / Reference marks", ""))
     elif xs:
-        at, largest = number(summary["curve"]["at"]), number(summary["curve"]["largest"])
-        plot.add(f"largest: {with_unit(largest, y[1])} at {with_unit(at, x[1])}", "marks", [at], [largest], "#2c1e5c")
+        add_mark(plot, "largest", number(summary["curve"]["at"]), number(summary["curve"]["largest"]))
     return plot.context()
 
 
@@ -79,10 +85,13 @@ def context_of_run(directory):
     if abs(number(summary.get("force_end_N"))) < 1e-8:
         del summary["force_end_N"]  # of a chuck that is free, but for rounding
     entries = read_entries(os.path.join(directory, "parameters.prm"))
+    # their coefficient is phi on another scale
+    is_mu_phi = entries.get("Interface / Friction law") in ("modified coulomb", "table")
     return {"title": entries.get("Title") or f"Results in {directory}", "finished": summary.get("converged") is True,
             "reason": summary.get("reason") or "the run is at work, or was ended from outside" * (not summary),
             "warnings": unique([*(summary.get("warnings") or []), *(summary.get("remarks") or [])]),
             "summary": summary, "entries": entries,
-            "curve": curve_of(directory, summary, entries), "maps": maps_of(os.path.join(directory, "maps.csv")),
+            "curve": curve_of(directory, summary, entries), "is_mu_phi": is_mu_phi,
+            "maps": maps_of(os.path.join(directory, "maps.csv"), without=["mu"] * is_mu_phi),
             "levels": read_table(os.path.join(directory, "auto.csv")),
             "origin": origin_of(summary, summary.get("wall_seconds")), "files": files_of(directory)}

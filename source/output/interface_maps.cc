@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace Debond
 {
@@ -24,11 +25,12 @@ namespace Debond
       const char  *name;
       unsigned int number; ///< in an InterfacePoint
     };
+    constexpr unsigned int          number_of_state = 8;
     constexpr std::array<Column, 5> columns{{{"pressure_MPa", 3},
                                              {"slip_mm", 5},
                                              {"phi", 6},
                                              {"mu", 7},
-                                             {"state", 8}}};
+                                             {"state", number_of_state}}};
     /** Of laws with strength in tension. */
     constexpr std::array<Column, 3> columns_of_opening{
       {{"left_by_opening", 10}, {"left_by_slip", 11}, {"mode_deg", 12}}};
@@ -56,6 +58,9 @@ namespace Debond
     })
     , box(scene.implant.geometry().box_of_face(scene.implant))
     , pulls(scene.interface.joint()->pulls())
+    , n(scene.interface.slave == Side::implant ?
+          scene.interface.points_per_element(scene.bone, scene.implant) :
+          1)
   {}
 
 
@@ -118,32 +123,125 @@ namespace Debond
 
 
 
-    /** The point closest to a place; null if there is none within reach, nor as
-     *  near as the next point is to that one: on steep faces some are far
-     * apart, seen from above. */
-    const InterfacePoint *
-    closest(const std::vector<InterfacePoint> &points,
-            const dealii::RTree<Entry>        &tree,
-            const dealii::Point<2>            &place,
-            const double                       reach)
+    Eigen::Vector2d
+    place_of(const InterfacePoint &point)
     {
-      std::vector<Entry> nearest;
-      tree.query(boost::geometry::index::nearest(place, 1),
-                 std::back_inserter(nearest));
-      if (nearest.empty())
-        return nullptr;
-      const auto [point, number] = nearest[0];
-      if (point.distance(place) > reach)
+      return {point[0], point[1]};
+    }
+
+
+
+    /** Where a place lies between four points, from 0 to 1 along each side: at
+     *  the nearest border if it is beyond them. Newton's method on the bilinear
+     *  map; the first parameter is the faster one of @p corner. */
+    Eigen::Vector2d
+    place_between(const std::array<Eigen::Vector2d, 4> &corner,
+                  const Eigen::Vector2d                &place)
+    {
+      const Eigen::Vector2d a = corner[1] - corner[0],
+                            b = corner[2] - corner[0],
+                            c = corner[3] - corner[1] - b;
+      Eigen::Vector2d s(0.5, 0.5);
+      for (unsigned int i = 0; i < 8; ++i)
         {
-          std::vector<Entry> around; // itself, and the next one
-          tree.query(boost::geometry::index::nearest(point, 2),
-                     std::back_inserter(around));
-          if (point.distance(place) >
-              1.5 * std::max(point.distance(around.front().first),
-                             point.distance(around.back().first)))
-            return nullptr;
+          Eigen::Matrix2d J;
+          J << a + s[1] * c, b + s[0] * c;
+          const Eigen::Vector2d rest =
+            place - corner[0] - s[0] * a - s[1] * b - s[0] * s[1] * c;
+          s = (s + J.fullPivLu().solve(rest)).cwiseMax(0.).cwiseMin(1.);
         }
-      return &points[number];
+      return s;
+    }
+
+
+
+    /** The values at a place that a point is nearest to: bilinear between four
+     *  of the @p n x @p n points of its element, which are one behind the
+     * other, the place moved to the points that are outermost. Its own values
+     * where there are no others, and next to the seam of a side that is
+     * unrolled, where the four are more than half of @p width apart. The state
+     * is that of the nearest. */
+    InterfacePoint
+    interpolated(const std::vector<InterfacePoint> &points,
+                 const unsigned int                 nearest,
+                 const Eigen::Vector2d             &place,
+                 const unsigned int                 n,
+                 const double                       width)
+    {
+      InterfacePoint     values   = points[nearest];
+      double             distance = (place_of(values) - place).norm();
+      const unsigned int first    = nearest / (n * n) * (n * n),
+                         column   = (nearest - first) % n,
+                         row      = (nearest - first) / n;
+      for (unsigned int j = std::max(row, 1U) - 1; j < std::min(row + 1, n - 1);
+           ++j)
+        for (unsigned int i = std::max(column, 1U) - 1;
+             i < std::min(column + 1, n - 1);
+             ++i)
+          {
+            const unsigned int                          k = first + i + j * n;
+            const std::array<const InterfacePoint *, 4> at{
+              {&points[k], &points[k + 1], &points[k + n], &points[k + n + 1]}};
+            std::array<Eigen::Vector2d, 4> corner;
+            for (unsigned int c = 0; c < 4; ++c)
+              corner[c] = place_of(*at[c]);
+            if (std::abs(corner[3][0] - corner[0][0]) > 0.5 * width ||
+                std::abs(corner[2][0] - corner[1][0]) > 0.5 * width)
+              continue;
+            const Eigen::Vector2d       s = place_between(corner, place);
+            const std::array<double, 4> share{{(1. - s[0]) * (1. - s[1]),
+                                               s[0] * (1. - s[1]),
+                                               (1. - s[0]) * s[1],
+                                               s[0] * s[1]}};
+            InterfacePoint              sum{};
+            for (unsigned int c = 0; c < 4; ++c)
+              for (unsigned int m = 0; m < sum.size(); ++m)
+                sum[m] += share[c] * (*at[c])[m];
+            const double rest = (place_of(sum) - place).norm();
+            if (rest >= distance)
+              continue;
+            distance = rest;
+            for (unsigned int m = 0; m < sum.size(); ++m)
+              if (m != number_of_state && !std::isnan(sum[m]))
+                values[m] = sum[m];
+          }
+      return values;
+    }
+
+
+
+    /** The values at a place; none if it is not between points of an element
+     *  and none of them is within reach, nor as near as the next point is to
+     *  that one: on steep faces some are far apart, seen from above. */
+    std::optional<InterfacePoint>
+    values_at(const Eigen::Vector2d             &place,
+              const std::vector<InterfacePoint> &points,
+              const dealii::RTree<Entry>        &tree,
+              const double                       reach,
+              const unsigned int                 n,
+              const double                       width)
+    {
+      const auto nearest_to = [&tree](const auto &at, const unsigned int k) {
+        std::vector<Entry> found;
+        tree.query(boost::geometry::index::nearest(at, k),
+                   std::back_inserter(found));
+        return found;
+      };
+      const dealii::Point<2>   at(place[0], place[1]);
+      const std::vector<Entry> nearest = nearest_to(at, 1);
+      if (nearest.empty())
+        return {};
+      const auto [point, number] = nearest[0];
+      const InterfacePoint values =
+        interpolated(points, number, place, n, width);
+      if (point.distance(at) <= reach ||
+          (place_of(values) - place).norm() < 1e-6 * width)
+        return values;
+      double next = 0.; // among itself and the next one
+      for (const Entry &one : nearest_to(point, 2))
+        next = std::max(next, point.distance(one.first));
+      return point.distance(at) > 1.5 * next ? std::nullopt :
+                                               std::make_optional(values);
     }
   } // namespace
 
@@ -205,12 +303,12 @@ namespace Debond
         for (unsigned int j = 0; j < n_across; ++j)
           for (unsigned int i = 0; i < n_across; ++i)
             {
-              const dealii::Point<2> place(box[0][0] + (i + 0.5) * dx,
-                                           box[0][1] + (j + 0.5) * dy);
-              const auto *const      point =
-                has_face_at({place[0], place[1]}) ?
-                       closest(one.points, tree, place, reach) :
-                       nullptr;
+              const Eigen::Vector2d place(box[0][0] + (i + 0.5) * dx,
+                                          box[0][1] + (j + 0.5) * dy);
+              const auto            point =
+                has_face_at(place) ?
+                             values_at(place, one.points, tree, reach, n, size[0]) :
+                             std::nullopt;
               table +=
                 of_event + to_text(place[0], 6) + "," + to_text(place[1], 6);
               for (const Column &column : shown)

@@ -65,6 +65,7 @@ def page(directory):
 def words(text):
     """What a reader sees, with single blanks."""
     text = re.sub(r"(?s)<(script|style)>.*?</\1>", " ", text)
+    text = re.sub(r"<sub>(.*?)</sub>", r"_\1", text)
     return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", " ", text)))
 
 
@@ -120,12 +121,13 @@ def pixels(image):
 
 
 def figures(text):
-    """Quantity, caption, ends of the scale and picture of each map."""
+    """Quantity, caption, its lowest and highest value, picture of each map, and both ends of the colours."""
     found = []
-    one = (r'(?s)src="data:image/png;base64,([^"]*)".*?<span>(.*?)</span><span>(.*?)</span>.*?'
+    one = (r'(?s)src="data:image/png;base64,([^"]*)".*?<span>(.*?)</span> to <span>(.*?)</span>.*?'
            r'<figcaption>(.*?)</figcaption>')
     for heading, part in re.findall(r"(?s)<h3>(.*?)</h3>(.*?)(?=<h3>|<h2>)", text):
-        found += [(heading, caption, float(low), float(high.split()[0]), image)
+        ends = [float(end.split()[0]) for end in re.findall("<b>(.*?)</b>", part)]
+        found += [(heading, caption, float(low), float(high.split()[0]), image, ends)
                   for image, low, high, caption in re.findall(one, part)]
     return found
 
@@ -146,7 +148,7 @@ def test_run(directory):
         check(said in seen, f"the page does not say: {said}")
     for remark in summary["remarks"] + summary["warnings"]:
         check(seen.count(remark) == 1, f"said {seen.count(remark)} times: {remark}")
-    for said in ("finished", "published T_max = 53.8 N mm", "published T_inf = 36.8 N mm", "coin, radius 2.5 mm, height 3 mm",
+    for said in ("finished", "reference Tₘₐₓ = 53.8 N mm", "reference T∞ = 36.8 N mm", "coin, radius 2.5 mm, height 3 mm",
                  "E = 113000 MPa", "size 12.5 × 12.5 × 5 mm", "0.0049 * min(t, 1)", "10 * max(t - 1, 0)", "Rotation angle [°]",
                  "Torque T [N mm]", "command", summary["provenance"]["commit"]):
         check(said in seen, f"the page does not say: {said}")
@@ -155,6 +157,13 @@ def test_run(directory):
     data = curves(text)[0]
     check(is_near(data["x"][0] + mark[0] / data["box"][2] * (data["x"][1] - data["x"][0]), largest["angle_deg"], 1e-3),
           "the largest torque is marked at another angle")
+    left, top = data["box"][:2]
+    label = re.search(r'<g class="label" transform="translate\(([^ ]*) ([^ )]*)\)"[^>]*>'
+                      r'(?:<path[^>]*>)?\s*<text [^>]*>largest torque<', text)
+    check(label and is_near(label[1], left + mark[0], 0.1) and is_near(label[2], top + mark[1], 0.1), "a label is not at its mark")
+    check(set(re.findall('<path class="level" stroke="([^"]*)"', text)) == {"#888888"} and "published" not in seen,
+          "reference marks are not grey, or are called published")
+    check('class="legend"><li' not in text.split("<h2>Results")[0].replace("\n", ""), "a legend of one curve")
     for term in re.findall(r'href="#(term-[^"]*)"', text):
         check(f'id="{term}"' in text, f"{term} is not in the glossary")
     check(page(directory) == text, "made anew it is another page")
@@ -171,19 +180,28 @@ def values_of_maps(directory):
 
 
 def test_maps(directory, text):
-    names = {"Pressure [MPa]": "pressure_MPa", "Sliding distance g_s [mm]": "slip_mm", "Bonding state phi": "phi",
-             "Friction coefficient mu": "mu"}
+    # columns, both colours of each, and what its range is
+    names = {"Pressure [MPa]": ("pressure_MPa", "f7fbff", "084594", None), "Bonding state φ": ("phi", "440154", "fde725", (0, 1)),
+             "Sliding distance gₛ [mm]": ("slip_mm", "ffffe5", "8c2d04", None)}
     values, drawn = values_of_maps(directory), figures(text)
-    check(len(drawn) >= 5, f"{len(drawn)} maps")
-    for heading, caption, low, high, image in drawn:
-        known = [value for value in values[names[heading], caption.split(": ", 1)[1]] if value == value]
+    check(len(drawn) >= 5 and {one[0] for one in drawn} == set(names), f"{len(drawn)} maps")
+    for heading, caption, low, high, image, ends in drawn:
+        name, first, last, whole = names[heading]
+        of_all = [value for (column, _), known in values.items() if column == name for value in known if value == value]
+        whole = whole or (0 if name == "slip_mm" else min(of_all), max(of_all))
+        check(all(math.isclose(a, b, rel_tol=6e-3) for a, b in zip(ends, whole)) and len(ends) == 2,
+              f"{heading}: colours from and to {ends}, not {whole}")
+        known = [value for value in values[name, caption.split(": ", 1)[1]] if value == value]
         check(math.isclose(low, min(known), rel_tol=6e-3, abs_tol=1e-12) and math.isclose(high, max(known), rel_tol=6e-3),
               f"{heading}, {caption}: from {low} to {high}, not from {min(known)} to {max(known)}")
         lines, colours, opaque = pixels(image)
         check(len(lines) == len(lines[0]) >= 96, f"{len(lines)} lines of {len(lines[0])} pixels")
-        check(colours[:3] == bytes((44, 30, 92)) and colours[3 * 254:3 * 255] == bytes((251, 233, 160)) and
-              opaque[:255] == b"\xff" * 255, "colours of maps")
-        n = len(lines)
+        check(colours[:3].hex() == first and colours[3 * 254:3 * 255].hex() == last and opaque[:255] == b"\xff" * 255,
+              f"colours of {heading}")
+        n, least, most = len(lines), *whole
+        dots = [value for line in lines for value in line if value < 255]
+        for value, dot in ((min(known), min(dots)), (max(known), max(dots))):
+            check(is_near(dot, 254 * (value - least) / (most - least), 8), f"{heading}, {caption}: colour {dot} of {value}")
         jumps = max(abs(line[i] - line[i - 1]) for line in lines[n // 4:3 * n // 4] for i in range(n // 4, 3 * n // 4))
         check(jumps < 100, f"{heading}, {caption}: colours jump by {jumps} of 254 from pixel to pixel")
         # sliding distances grow from the middle outwards
@@ -197,18 +215,25 @@ def test_maps(directory, text):
     for image, caption in states:
         lines, known = pixels(image)[0], values["state", caption.split(": ", 1)[1]]
         drawn_states = [value for line in lines[::-1] for value in line]
-        check(all(a == b or (a == 255 and b != b) for a, b in zip(drawn_states, known)), f"states at {caption}")
+        check(all(a == b or b != b for a, b in zip(drawn_states, known)), f"states at {caption}")
+        # all that the page shows of it has a colour: a disk in which no place of the grid ends at the rim
+        n = len(lines)
+        check(all(value < 255 for j, line in enumerate(lines) for i, value in enumerate(line)
+                  if math.hypot(max(abs(i - (n - 1) / 2) - 0.5, 0), max(abs(j - (n - 1) / 2) - 0.5, 0)) < n / 2),
+              f"states at {caption}: gaps at the rim")
     check({"sticks", "slides"} <= set(re.findall(r"</svg>(\w+)</li>", text)), "states have no names")
-    check(text.count('class="round"') == len(drawn) + len(states) > len(drawn), "a round face is not round")
+    check(len(re.findall('class="(cells)? ?round"', text)) == len(drawn) + len(states) > len(drawn), "a round face is not round")
     for (name, event), known in values.items():
-        if name == "state":
+        if name in ("state", "mu"):
             continue
-        heading = next(heading for heading, column in names.items() if column == name)
+        heading = next(heading for heading, about in names.items() if about[0] == name)
         known = [value for value in known if value == value]
         is_drawn = any((heading, event) == (one[0], one[1].split(": ", 1)[1]) for one in drawn)
         is_uniform = max(known) - min(known) <= 1e-3 * max(map(abs, known))
         check(not (is_drawn and is_uniform), f"{name} is drawn though it is the same everywhere: {event}")
-    check(re.search(r"it is 0.58 everywhere", words(text)), "no words for a uniform coefficient")
+    check(re.search(r"it is 1 everywhere", words(text)), "no words for a uniform bond")
+    check("<h3>Friction coefficient" not in text and "μ is φ on another scale" in text, "a coefficient that is phi has maps")
+    check("A cell of one colour is the area of a quadrature point." in text, "what cells are")
 
 
 def test_small_map(directory):
@@ -218,19 +243,36 @@ def test_small_map(directory):
         for y in (-3, -1, 1, 3):
             for x in (-1.5, -0.5, 0.5, 1.5):
                 gap = x < -1 and y > 2
-                file.write(f"end,3,2,10,{x},{y},{'nan' if gap else y + 4},{'nan' if gap else x + 2},{1.0002 if x < y else 1},0.5\n")
+                file.write(f"end,3,2,10,{x},{y},{'nan' if gap else y + 4},{'nan' if gap else x + 1.5},{1.0002 if x < y else 1},0.5\n")
+    with open(f"{directory}/parameters.prm") as file:
+        scene_before = file.read()
+    with open(f"{directory}/parameters.prm", "w") as file:
+        file.write(scene_before.replace("= modified coulomb", "= rate and state"))
     text = page(directory)
-    (_, _, _, _, up), (_, _, _, _, right) = figures(text)
+    (*_, up, _), (*_, right, _) = figures(text)
     lines, n = pixels(up)[0], len(pixels(up)[0])
     check(lines[0][0] == 255 and pixels(up)[2][255] == 0, "a gap is filled")
     check(lines[0][n - 1] > 250 and lines[n - 1][0] < 5, "y does not go up")
     check(pixels(right)[0][n - 1][n - 1] > 250 and pixels(right)[0][n - 1][0] < 5, "x does not go right")
-    check('class="round"' not in text, "a rectangle is round")
+    check(' round"' not in text, "a rectangle is round")
     column = [line[n // 2] for line in lines]
     check(all(is_near(a - b, column[n // 2 - 1] - column[n // 2], 1) for a, b in zip(column[2:-2], column[3:-2])),
           f"what is linear between points is not linear in the picture: {column}")
     check("aspect-ratio: 2 / 4" in text, "the face has other proportions")
-    check("Bonding state phi It is 1 everywhere." in words(text), "no words for phi")
+    check("Bonding state φ It is 1 everywhere." in words(text), "no words for phi")
+    check("Friction coefficient μ It is 0.5 everywhere." in words(text), "no words for a coefficient that is not phi")
+    # tension is red, no pressure white, and equal colours are equally far from it
+    with open(f"{directory}/maps.csv") as file:
+        rows = file.read().replace("end,3,2,10,0.5,-3,1,", "end,3,2,10,0.5,-3,-3.5,")
+    with open(f"{directory}/maps.csv", "w") as file:
+        file.write(rows)
+    text = page(directory)
+    heading, _, low, high, image, ends = figures(text)[0]
+    colours = pixels(image)[1]
+    red, white, blue = (colours[3 * k:3 * k + 3] for k in (0, round(254 * 3.5 / 10.5), 254))
+    check((low, high) == tuple(ends) == (-3.5, 7) and min(white) > 250 and blue.hex() == "084594" and red[0] > red[2] + 100,
+          f"colours of tension: {red.hex()}, {white.hex()}, {blue.hex()}")
+    check("Red is tension." in text, "no words for tension")
 
 
 def test_reference_and_comparison(directory):
@@ -278,7 +320,7 @@ def test_others():
     curve_is_that_of(text, table("closed/torque.csv"), "angle_deg", "torque_Nmm")
     simulate("pressed", "Chuck/Rotation z/Value=0", "Chuck/Press/Control=force",
              "Chuck/Press/Value=20 * min(t, 1)")
-    check("force [N] = -20 * min(t, 1)" in words(page("pressed")), "load of a run under a force")
+    check("force [N] = 20 * min(t, 1)" in words(page("pressed")), "load of a run under a force")
     # what an interruption leaves: rows only, the last of them in part
     os.makedirs("at_work", exist_ok=True)
     with open("run/torque.csv") as file, open("at_work/torque.csv", "w") as copy:
@@ -399,10 +441,13 @@ addEventListener("load", () => {
   const send = (type, u, kind = "mouse", more = {}) => svg.dispatchEvent(new (kinds(type))(type, {
     clientX: box.left + (data.box[0] + u * data.box[2]) * scale,
     clientY: box.top + (data.box[1] + 0.4 * data.box[3]) * scale, pointerType: kind, button: 0, cancelable: true, ...more }));
+  const labels = () => [...svg.querySelectorAll(".label")].filter(one => one.getAttribute("visibility") != "hidden").length;
   const look = () => seen.push(figure.querySelector(".read").textContent, area.getAttribute("viewBox"));
   send("pointermove", 0.5); look();
   send("pointermove", 0.75, "touch"); look();
+  const n_labels = labels();
   send("pointerdown", 0.2); send("pointermove", 0.4); send("pointerup", 0.4); look();
+  const n_in_range = labels();
   send("dblclick", 0.5); look();
   send("wheel", 0.5, "mouse", { deltaY: -1 }); look();
   send("dblclick", 0.5);
@@ -411,7 +456,7 @@ addEventListener("load", () => {
   finger("pointerup", 0.2, 2); finger("pointerup", 0.8, 3); look();
   finger("pointerdown", 0.5, 4); finger("pointerup", 0.5, 4); finger("pointerdown", 0.5, 5); look();
   seen.push(document.documentElement.scrollWidth > innerWidth,
-            [...document.images].filter(i => !i.complete || !i.naturalWidth).length);
+            [...document.images].filter(i => !i.complete || !i.naturalWidth).length, n_labels, n_in_range, labels());
   document.getElementById("seen").textContent = JSON.stringify(seen);
 });
 </script>"""
@@ -427,7 +472,7 @@ def test_in_browser(directory):
     done = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--window-size=500,900",
                            "--virtual-time-budget=5000", "--dump-dom", f"file://{os.path.abspath('looked-at.html')}"],
                           capture_output=True, text=True)
-    hover, all_seen, touch, _, _, zoomed, _, back, _, wheel, _, pinched, _, tapped, is_wide, n_broken = json.loads(
+    hover, all_seen, touch, _, _, zoomed, _, back, _, wheel, _, pinched, _, tapped, is_wide, n_broken, *n_labels = json.loads(
         html.unescape(re.search(r'<p id="seen">(.*?)</p>', done.stdout).group(1)))
     data, rows = curves(text)[0], table(f"{directory}/torque.csv")
     for said, u in ((hover, 0.5), (touch, 0.75)):
@@ -442,6 +487,7 @@ def test_in_browser(directory):
     x, _, width, _ = map(float, pinched.split())
     check(is_near(x, data["box"][2] / 3, 0.5) and is_near(width, data["box"][2] / 3, 0.5), f"two fingers: {pinched}")
     check(tapped == back, f"a double tap: {tapped}")
+    check(0 < n_labels[1] < n_labels[0] == n_labels[2] == 5, f"labels at all, in a range and at all again: {n_labels}")
     check(not is_wide and n_broken == 0, "the page is wider than the window, or pictures are broken")
 
 

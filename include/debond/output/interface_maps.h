@@ -34,8 +34,9 @@ namespace Debond
     void
     look(const TorqueRow &row, const Points &points);
 
-    /** Writes maps.csv: for each event all places of the grid, with the values
-     *  of the nearest point; nan where there is none. @p last_row and its
+    /** Writes maps.csv: for each event all places of the grid, with values
+     *  between the points of an element, or of the nearest point where that of
+     *  the bone is the slave; nan where there is none. @p last_row and its
      *  @p points end the run. */
     void
     write(const ResultDirectory &directory,
@@ -78,11 +79,14 @@ namespace Debond
     const bool   is_mesh;
     const std::function<bool(const Eigen::Vector2d &)> has_face_at;
     const std::array<Eigen::Vector2d, 2> box; ///< of the grid [mm]
-    const bool   pulls; ///< the law has strength in tension
-    unsigned int n_rows    = 0;
-    double       first_phi = 0.,
-           largest_load    = 0.;    ///< [N], of a snapshot
-    std::set<std::string> has_been; ///< events
+    const bool pulls; ///< the law has strength in tension
+    /** Points per direction and element; 1 with the bone as the slave, of whose
+     *  elements not all points face the implant. */
+    const unsigned int n;
+    unsigned int       n_rows    = 0;
+    double             first_phi = 0.,
+           largest_load          = 0.; ///< [N], of a snapshot
+    std::set<std::string> has_been;    ///< events
     std::vector<Snapshot> snapshots;
     Snapshot              largest; ///< at the largest load so far
   };

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the commands that README.md, CONTRIBUTING.md and doc/*.md print.
+"""Runs the commands that README.md, CONTRIBUTING.md and the pages of doc print.
 
     commands.py --list                      page, line and command
     commands.py --check [BUILD]             every command is in commands.txt, and the other way round; names and files in
@@ -81,7 +81,7 @@ def commands_of(page):
 
 def all_commands():
     os.chdir(ROOT)
-    pages = ['README.md', 'CONTRIBUTING.md'] + sorted(glob.glob('doc/*.md'))
+    pages = ['README.md', 'CONTRIBUTING.md'] + sorted(glob.glob('doc/**/*.md', recursive=True))
     return [command for page in pages for command in commands_of(page)]
 
 

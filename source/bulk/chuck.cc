@@ -72,7 +72,7 @@ namespace Debond
       table.add(
         "File columns",
         component.columns,
-        Allowed::list(Allowed::text("a column", false), 2, 2)
+        Allowed::text("two columns, the time or angle and the value", false)
           .or_word_for("auto", ""),
         "Columns of File with time or angle, and with the value: each by "
         "name or by number from 1, with a unit if the file has none: 1 "

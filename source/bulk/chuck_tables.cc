@@ -55,10 +55,12 @@ namespace Debond
             {
               return read_rows(chuck, k);
             }
-          catch (const EntryError &)
+          catch (const EntryError &of_angle)
             {
               over_angle = false;
-              throw error;
+              // there is an angle, and the value is what is missing
+              const bool has_angle = of_angle.why.find("deg") == std::string::npos;
+              throw has_angle ? of_angle : error;
             }
         }
     }
@@ -108,9 +110,9 @@ namespace Debond
   ChuckParameters::take_press()
   {
     ChuckComponentParameters &z = component[ChuckComponent::translation_z];
-    if (!is_set(press) || z.into_bone)
+    if (!is_set(press) && !z.into_bone)
       return;
-    if (is_set(z))
+    if (is_set(z) && !z.into_bone)
       throw EntryError("Chuck / Press / Value",
                        "Press and Translation z are one motion, with opposite "
                        "signs: expected one of them");

@@ -170,6 +170,8 @@ namespace Debond
       points_of_last_row = points;
     if (!scene.title.empty())
       console.headline(scene.title);
+    if (const std::string line = scene.values_of_the_paper(); !line.empty())
+      console.headline(line);
     torque_curve.emplace(directory.file("torque.csv"), torque_table(rows));
   }
 

@@ -259,7 +259,7 @@ namespace Debond
       table.add(
         "Reference columns",
         output.reference_columns,
-        Allowed::list(Allowed::text("a column", false), 1, 0)
+        Allowed::text("two columns, the angle and the torque", false)
           .or_word_for("auto", ""),
         "Columns of Reference curve with angle and torque, or with the "
         "quantities of Curve: each by name or by number from 1, with a unit "

@@ -267,9 +267,11 @@ namespace Debond
         std::minmax_element(values.begin(), values.end());
       note(*least >= 0. && *most > 0. && scene.interface.is_friction_only(),
            "direction of the push",
-           entry + " is never negative: it pulls the implant off the bone. "
-                   "What presses is negative; Interface / Law = adhesive "
-                   "holds against a pull");
+           entry + std::string(z.into_bone ? " is never positive" :
+                                             " is never negative") +
+             ": it pulls the implant off the bone. What presses is positive "
+             "in Chuck / Press; Interface / Law = adhesive holds against a "
+             "pull");
       const double push = -*least; // a machine's springs may take a larger one
       note(!z.is_unknown() && push > std::max(bone.penetration_limit(),
                                               implant.penetration_limit()),

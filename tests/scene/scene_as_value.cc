@@ -26,8 +26,9 @@ namespace
     scene.load_steps.steps         = {2, 10};
     scene.load_steps.adaptive      = true;
     scene.load_steps.tolerance     = 1. / 3.;
-    scene.chuck.component[2].value = "-0.0049 * min(t, 1)";
+    scene.chuck.press.value        = "0.0049 * min(t, 1)";
     scene.chuck.component[5].value = "10 * max(t - 1, 0)";
+    scene.chuck.read_tables();
     return scene;
   }
 

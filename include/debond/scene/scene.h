@@ -174,6 +174,11 @@ namespace Debond
      *  likely to be a slip of the pen. */
     std::vector<Warning>
     warnings() const;
+
+    /** Sizes, moduli and the interface as far as the scene does not set them,
+     *  in a line; nothing if it sets all that it reads. */
+    std::string
+    values_of_the_paper() const;
   };
 
   /** Whether an entry has the value of a scene that nothing was said of. */

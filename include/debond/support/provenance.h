@@ -11,7 +11,7 @@ namespace Debond
   void
   note_command(int argc, const char *const *argv);
 
-  /** "debond 1.0.0" */
+  /** "debond 2.0.0" */
   std::string
   program_and_version();
 

@@ -1,0 +1,73 @@
+#include <debond/input/entry_table.h>
+#include <debond/scene/scene.h>
+
+#include <algorithm>
+#include <map>
+
+// A scene of an implant of one's own should say what it is: what it does not
+// say is the coin of the paper.
+namespace Debond
+{
+  namespace
+  {
+    /** Entries that describe the test, as far as the scene reads them. */
+    std::vector<std::string>
+    physical_entries(const Scene &scene)
+    {
+      std::vector<std::string> names;
+      const auto add = [&](const bool is_read, const std::string &name) {
+        if (is_read)
+          names.push_back(name);
+      };
+      const BodyShape shape = scene.implant.shape;
+      const bool      is_round =
+        shape != BodyShape::block && shape != BodyShape::file;
+      add(is_round, "Implant / Radius");
+      add(is_round, "Implant / Height");
+      add(scene.bone.shape == BodyShape::block, "Bone / Size");
+      for (const auto &[body, name] : {std::pair(&scene.bone, "Bone"),
+                                       std::pair(&scene.implant, "Implant")})
+        for (const char *const entry : {"Young modulus", "Poisson ratio"})
+          add(!body->is_rigid(), std::string(name) + " / " + entry);
+      add(true, "Interface / Normal stiffness");
+      for (const FrictionLawPlugin &law : friction_law_plugins())
+        for (const LawEntry &entry : law.entries)
+          add(law.name == scene.interface.friction_choice.law &&
+                !scene.interface.friction->is_frictionless() &&
+                entry.subsection.empty(),
+              "Interface / " + entry.name);
+      return names;
+    }
+  } // namespace
+
+
+
+  std::string
+  Scene::values_of_the_paper() const
+  {
+    std::map<std::string, std::string> values;
+    for (const SceneEntry &entry : read_scene_text(completed_parameters, name))
+      values[entry.full_name()] = entry.value;
+    Scene      defaults;
+    EntryTable table;
+    defaults.declare(table);
+    std::string list;
+    for (const std::string &physical : physical_entries(*this))
+      if (std::none_of(entries.begin(),
+                       entries.end(),
+                       [&](const SceneEntry &entry) {
+                         return entry.full_name() == physical;
+                       }))
+        {
+          std::string unit = table.unit_of(physical);
+          if (physical == "Bone / Young modulus") // it may be an expression
+            unit = "MPa";
+          list += (list.empty() ? "" : "; ") + physical + " = " +
+                  values[physical] + (unit.empty() ? "" : " " + unit);
+        }
+    return list.empty() ? "" :
+                          "As for the coin of the paper, for the scene does "
+                          "not say otherwise: " +
+                            list;
+  }
+} // namespace Debond

@@ -114,7 +114,13 @@ def copy_parts(app, exception):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(style)
     if html_context["api"]:
-        shutil.copytree(API, os.path.join(app.outdir, "developers", "api"), dirs_exist_ok=True)
+        api = os.path.join(app.outdir, "developers", "api")
+        shutil.copytree(API, api, dirs_exist_ok=True)
+        for path in glob.glob(os.path.join(api, "**", "*.html"), recursive=True):
+            with open(path, encoding="utf-8") as file:
+                page = file.read()
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(page.replace(f'src="{MATHJAX}/', f'src="{os.path.relpath(to, os.path.dirname(path))}/'))
 
 
 def setup(app):

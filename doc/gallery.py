@@ -85,6 +85,7 @@ def sentences_of(scene, at_most=2, characters=300):
     told = re.sub(r"[:,;]$", ".", told.strip())
     if told and told[-1] not in ".!?":
         told += "."
+    told = re.sub(r"`([^`']*)'", r"'\1'", told)
     told = re.sub(r"([*<>$\[\]])", r"\\\1", told)
     return re.sub(r"(?<![\w/`])((?:prm|doc|tests|source)/[\w/.]*\w)", r"`\1`", told)
 
@@ -113,7 +114,7 @@ def label_of(name):
 
 
 def curve_of(directory):
-    """-> names of the axes, x, y: the torque over the angle, or that motion of the chuck that does most of the work"""
+    """-> names of the axes, x, y: the torque over the angle or, without one, that motion of the chuck that does most of the work"""
     path = os.path.join(directory, "reactions.csv")
     if os.path.exists(path):
         table = table_of(path)
@@ -129,6 +130,8 @@ def curve_of(directory):
             q, force = numbers_of(table[x]), numbers_of(table[y])
             work = np.nansum(abs((force[1:] + force[:-1]) / 2 * np.diff(q))) * factor
             best = max(best, (work, x, y))
+            if x == "angle_deg" and np.ptp(q) > 0 and np.nanmax(abs(force)) > 1e-6:
+                break
     _, x, y = best
     if len(table[x]) < 2:
         raise ValueError("no curve in " + directory)

@@ -1,4 +1,4 @@
-"""Executes the examples of doc/python.md, in their order and in one namespace, as a reader would. Usage: page.py ROOT,
+"""Executes the examples of doc/howto/python.md, in their order and in one namespace, as a reader would. Usage: page.py ROOT,
 where `import debond` finds the module."""
 
 import contextlib
@@ -12,7 +12,7 @@ import traceback
 
 def main():
     os.chdir(sys.argv[1])
-    with open("doc/python.md", encoding="utf-8") as file:
+    with open("doc/howto/python.md", encoding="utf-8") as file:
         page = file.read()
     temporary = tempfile.TemporaryDirectory(prefix="debond-page-")
     tempfile.tempdir = temporary.name  # where the examples write
@@ -26,10 +26,10 @@ def main():
         try:
             with contextlib.redirect_stdout(printed):
                 # as many empty lines as are above it, so that the traceback has the lines of the page
-                exec(compile("\n" * line + block.group(1), "doc/python.md", "exec"), names)
+                exec(compile("\n" * line + block.group(1), "doc/howto/python.md", "exec"), names)
         except Exception:
             traceback.print_exc()
-            sys.exit(f"doc/python.md, line {line + 1}, {heading}: the example does not run")
+            sys.exit(f"doc/howto/python.md, line {line + 1}, {heading}: the example does not run")
         print(f"{heading}: runs")
         for said in printed.getvalue().splitlines():
             print("   ", said)

@@ -59,7 +59,7 @@ namespace Debond
             {
               over_angle = false;
               // there is an angle, and the value is what is missing
-              const bool has_angle = of_angle.why.find("deg") == std::string::npos;
+              const bool has_angle = of_angle.why.find("says deg") == std::string::npos;
               throw has_angle ? of_angle : error;
             }
         }
@@ -129,6 +129,10 @@ namespace Debond
     for (unsigned int k = 0; k < n_components; ++k)
       component[k].table =
         component[k].file.empty() ? nullptr : read_table(*this, k);
+    const ChuckComponentParameters &z =
+      component[ChuckComponent::translation_z];
+    if (z.into_bone)
+      press = z; // with what has been read
   }
 
 

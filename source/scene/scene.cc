@@ -172,6 +172,7 @@ namespace Debond
   void
   Scene::take_values()
   {
+    chuck.take_press();
     interface.bonding.identity = identity_of(interface.bonding.file);
     interface.friction         = create_friction_law(interface.friction_choice);
     implant.make_mesh("Implant", implant);

@@ -44,10 +44,14 @@ lifted(const std::array<double, 2>    &before,
     return std::to_string(a) + " * min(max(t - 1, 0), 1) + " +
            std::to_string(b) + " * max(t - 2, 0)";
   };
+  const bool breaks =
+    std::count(others.begin(),
+               others.end(),
+               "Interface/Friction law=modified coulomb") > 0;
   std::vector<std::string> entries = {
     "Implant/Cells=6, 2",
     "Interface/Friction coefficient" +
-      std::string(others.empty() ? "=" : " broken=") + std::to_string(mu),
+      std::string(breaks ? " broken=" : "=") + std::to_string(mu),
     "Interface/Normal stiffness=" + std::to_string(eps),
     "Chuck/Press/Value=0.0049 * min(t, 1) - 0.0098 * max(t - 2, 0)",
     "Chuck/Translation x/Value=" + shift(before[0], while_lifted[0]),

@@ -251,7 +251,7 @@ def check_what_cannot_be_told():
            found.warnings)
     report("intervals without an end", not numpy.isfinite([*found.lower, *found.upper]).any() or numpy.isinf(found.upper).all(), found.upper)
     report("correlation of -1", abs(found.told.correlations[0, 1] + 1) < 1e-6)
-    found = fit(products, "{{clean.csv||}}", Curves="{{torque_Nmm||torque_Nmm, chuck_Fz_N}}")
+    found = fit(products, "{{clean.csv||none}}", Curves="{{torque_Nmm||torque_Nmm, chuck_Fz_N}}")
     report("a force that is measured too would tell both", len(found.candidates) == 1 and numpy.isfinite(found.candidates[0][1]).all())
     hardly = fit({**TWO, "Implant/Young modulus": "<<E: 1e5 in 1e4..2e5>>"}, "clean.csv")
     report("what changes nothing is not told, and does not end at its bound",

@@ -243,7 +243,7 @@ def check_defaults():
 
 def check_mistakes():
     print("Mistakes")
-    error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Sliding treshold": 0.02}).run())
+    error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Characteristic slip distence": 0.02}).run())
     error = mistake(lambda: debond.Scene(text=coin, entries={"Interface/Characteristic slip distance": -1}).run())
     check("  entry, value and place", (error.entry, error.value, error.place) == ("Interface / Characteristic slip distance", "-1", "entries"))
     mistake(lambda: debond.Scene("con.prm").run())

@@ -104,7 +104,12 @@ namespace Debond
     void
     declare(EntryTable &table);
 
-    /** Takes Press for Translation z and reads the tables of all components
+    /** Takes Press for Translation z, if a scene says Press. Throws EntryError
+     *  if it says both. */
+    void
+    take_press();
+
+    /** The same, and reads the tables of all components
      *  that have a file, which scenes made by a program must do as well. Throws
      *  EntryError. */
     void
@@ -128,8 +133,6 @@ namespace Debond
     /** The same with the sign of Press. */
     TimeFunction
     value_as_given(unsigned int component, double radius) const;
-    void
-    take_press();
     void
     declare_component(unsigned int component, bool into_bone, EntryTable &table);
 

@@ -263,7 +263,7 @@ def check_known():
     measured("clean.csv")
     both = {**TWO, I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>"}
     table = {row["entry"]: row["effect"] for row in fit(both, "clean.csv").taken_as_known}
-    load = table["Chuck / Translation z / Value"]
+    load = table["Chuck / Press / Value"]
     report("10 % more load make both coefficients 10 % smaller", max(abs(load[name] + 10) for name in ("mu_b", "mu_ub")) < 0.5, load)
 
 

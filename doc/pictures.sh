@@ -58,7 +58,7 @@ half_bonded() {
     local pattern=()
     case $name in
       disk) pattern=(--set Interface/Bonding/Pattern=disk --set "Interface/Bonding/Bonded fraction=0.5") ;;
-      side) pattern=(--set Interface/Bonding/Pattern=expression --set "Interface/Bonding/Expression=if(x < 0, 1, 0)") ;;
+      side) pattern=(--set Interface/Bonding/Pattern=expression --set "Interface/Bonding/Expression=if(x > 0, 1, 0)") ;;
       random)
         pattern=(--set Interface/Bonding/Pattern=random --set "Interface/Bonding/Bonded fraction=0.5"
           --set "Interface/Bonding/Correlation length=0.6")

@@ -286,7 +286,6 @@ main()
         set Control   = force
         set Value     = min(t, 1) * table
         set File      = force.csv
-        set File over = angle
       end
     end)");
   check("Path following",

@@ -5,14 +5,14 @@ import time
 
 import debond
 
-scene = debond.Scene("prm/coin_mode3.prm", {"Output/Fields every": 0})
+scene = debond.Scene("prm/coin_mode3.prm", {"Output/Fields every": "none"})
 n = 1000
 
 
 def loop():
-    simulation = debond.Simulation(scene, drive={"Translation z": 0, "Rotation z": 0})
+    simulation = debond.Simulation(scene, drive={"Press": 0, "Rotation z": 0})
     for t in [0, 1] + [1 + (i + 1) / n for i in range(n)]:
-        simulation.advance({"Translation z": -0.0049 * min(t, 1), "Rotation z": 10 * max(t - 1, 0)})
+        simulation.advance({"Press": 0.0049 * min(t, 1), "Rotation z": 10 * max(t - 1, 0)})
         assert abs(simulation.row["time"] - t) < 1e-9
     return simulation.result()
 

@@ -115,11 +115,6 @@ def label_of(name):
 
 def curve_of(directory):
     """-> names of the axes, x, y: the torque over the angle or, without one, that motion of the chuck that does most of the work"""
-    path = os.path.join(directory, "reactions.csv")
-    if os.path.exists(path):
-        table = table_of(path)
-        x, y = list(table)[1:3]
-        return (x, y), numbers_of(table[x]), numbers_of(table[y])
     table = table_of(os.path.join(directory, "torque.csv"))
     best = (0, "angle_deg", "torque_Nmm")
     pairs = [("angle_deg", "torque_Nmm", np.pi / 180)]

@@ -279,10 +279,10 @@ main()
         set Control = moment
       end
     end)");
-  std::ofstream("force.csv") << "angle_deg,chuck_Fz_N\n0,-20\n1,-30\n3,-70\n";
+  std::ofstream("force.csv") << "angle_deg,press_N\n0,20\n1,30\n3,70\n";
   check("A load over the angle, from a file", linear + R"(
     subsection Chuck
-      subsection Translation z
+      subsection Press
         set Control   = force
         set Value     = min(t, 1) * table
         set File      = force.csv

@@ -23,7 +23,7 @@ RESULTS = 'output/step_error'
 FORCES = ['chuck_F%s_N' % k for k in 'xyz']
 MOMENTS = ['chuck_M%s_Nmm' % k for k in 'xyz']
 
-PRESS = '-0.0049 * min(t, 1)'
+PRESS = '0.0049 * min(t, 1)'
 SHEAR = '0.02 * min(max(t - 1, 0), 1)'
 SHEAR_THEN_TWIST = {'Translation x': SHEAR, 'Rotation z': '2 * max(t - 2, 0)'}
 COARSE = {'Bone/Cells': '12, 12, 3', 'Implant/Cells': '4, 2', 'Bone/Layer grading': '1.5', 'Implant/Layer grading': '1.5',

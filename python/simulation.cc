@@ -53,6 +53,9 @@ namespace
   public:
     Run(Scene scene, const std::map<std::string, double> &driven)
     {
+      if (driven.count("Press") > 0 && driven.count("Translation z") > 0)
+        throw InputError("Press and Translation z are one motion, with "
+                         "opposite signs: expected one of them to be driven");
       for (const auto &[name, value] : driven)
         {
           const unsigned int k = component(name);
@@ -62,8 +65,8 @@ namespace
                              "ones: expected false, and no path to follow");
           auto drive   = std::make_shared<Drive>();
           drive->begin = drive->end = scene.load_steps.times.front();
-          drive->from = drive->to           = value;
-          drives[name]                      = drive;
+          drive->from = drive->to            = value;
+          drives[name]                       = drive;
           scene.chuck.component[k].into_bone = name == "Press";
           scene.chuck.component[k].function  = [drive](const double time) {
             return (*drive)(time);

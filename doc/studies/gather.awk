@@ -66,7 +66,7 @@ FNR == 1 {
   surface = value("Bone / Contact surface"); slave = value("Interface / Slave")
   # what differs from the usual choice
   label = tier
-  if (tier == "analytical") label = label (value("Closed form / Linear limit angle") == 0.13 ? "; printed angles" : "; own angles")
+  if (tier == "prescribed angles") label = label (value("Closed form / Linear limit angle") == 0.13 ? "; printed angles" : "; own angles")
   if (splines || quadratic) {
     label = label (value("Bone / Material") == "linear" ? "" : " " value("Bone / Material")) "; " cells[1] " x " cells[2] " x " cells[3] " / " \
       implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal cells" ? "" : " " mesh) \

@@ -121,9 +121,9 @@ namespace Debond
                 "expression may use table, the value of the table; the "
                 "default 0 then means table.");
     declare_file(own,
-                 into_bone ? "press_mm or press_N" :
-                             column_name(k, false) + " or " +
-                               column_name(k, true),
+                 into_bone ?
+                   "press_mm or press_N" :
+                   column_name(k, false) + " or " + column_name(k, true),
                  table);
     table.add(
       "Stiffness",

@@ -27,12 +27,11 @@ namespace Debond
     read_rows(const ChuckParameters &chuck, const unsigned int k)
     {
       const ChuckComponentParameters &component = chuck.component[k];
-      return read_measured_table(
-        component.file,
-        chuck.entry_name(k, "File"),
-        {abscissa_of(component), chuck.file_column(k)},
-        component.columns,
-        chuck.entry_name(k, "File columns"));
+      return read_measured_table(component.file,
+                                 chuck.entry_name(k, "File"),
+                                 {abscissa_of(component), chuck.file_column(k)},
+                                 component.columns,
+                                 chuck.entry_name(k, "File columns"));
     }
 
 
@@ -59,7 +58,8 @@ namespace Debond
             {
               over_angle = false;
               // there is an angle, and the value is what is missing
-              const bool has_angle = of_angle.why.find("says deg") == std::string::npos;
+              const bool has_angle =
+                of_angle.why.find("says deg") == std::string::npos;
               throw has_angle ? of_angle : error;
             }
         }
@@ -100,7 +100,7 @@ namespace Debond
     is_set(const ChuckComponentParameters &component)
     {
       return component.value != "0" || !component.file.empty() ||
-             component.is_unknown();
+             !component.columns.empty() || component.is_unknown();
     }
   } // namespace
 
@@ -150,7 +150,7 @@ namespace Debond
 
   TimeFunction
   ChuckParameters::value_as_given(const unsigned int k,
-                                   const double       radius) const
+                                  const double       radius) const
   {
     const auto &[table, value, function] =
       std::tie(component[k].table, component[k].value, component[k].function);

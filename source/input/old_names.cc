@@ -34,7 +34,9 @@ namespace Debond
     };
 
     const std::vector<Change> changes{
-      {"Model", "", {{"mathieu", "crack"}, {"analytical", "prescribed angles"}}},
+      {"Model",
+       "",
+       {{"mathieu", "crack"}, {"analytical", "prescribed angles"}}},
       {"Bone / Bulk solver", "Bone / Solver"},
       {"Bone / Mesh file", "", {{"", "none"}}},
       {"Bone / Outer radius", "", {{"0", "none"}}},
@@ -87,7 +89,9 @@ namespace Debond
       {"Output / Profile angles", "", {{"", "none"}}},
       {"Output / Checkpoint every", "", {{"0", "none"}}},
       {"Output / Checkpoint minutes", "", {{"0", "none"}}},
-      {"Output / Published values", "Output / Reference marks", {{"", "none"}}}};
+      {"Output / Published values",
+       "Output / Reference marks",
+       {{"", "none"}}}};
 
 
 
@@ -134,11 +138,13 @@ namespace Debond
 
   namespace
   {
-    /** {{name: a|b|c}}, or {{a||b}}, and what follows: the values are changed by
+    /** {{name: a|b|c}}, or {{a||b}}, and what follows: the values are changed
+     * by
      *  @p change. Nothing of what is none. */
     std::string
-    with_each_value(const std::string &text,
-                    const std::function<std::string(const std::string &)> &change)
+    with_each_value(
+      const std::string                                     &text,
+      const std::function<std::string(const std::string &)> &change)
     {
       static const std::regex several(
         "\\{\\{([A-Za-z0-9 _]+:)?([^{}]*)\\}\\}(.*)");
@@ -147,7 +153,7 @@ namespace Debond
         return "";
       const std::string items = parts[2],
                         bar   = items.find("||") == items.npos ? "|" : "||";
-      std::string       list;
+      std::string list;
       for (const std::string &item : split(items, bar))
         list += (list.empty() ? "" : bar) + change(item);
       return "{{" + (parts[1].matched ? parts[1].str() + " " : "") + list +
@@ -300,7 +306,8 @@ namespace Debond
                                parts[1].length(),
                                "Press");
           }
-        else if (boost::iequals(code, "end", std::locale::classic()) && !path.empty())
+        else if (boost::iequals(code, "end", std::locale::classic()) &&
+                 !path.empty())
           {
             // a table alone is its own value
             if (path.back() == "Translation z" && presses() &&
@@ -319,19 +326,25 @@ namespace Debond
       {
         const SceneEntry  entry{path, name, value, ""};
         const std::string full = entry.full_name(), renamed = new_name_of(full);
-        std::string       new_name = renamed.empty() ? full : renamed;
+        std::string       new_name  = renamed.empty() ? full : renamed;
         std::string       new_value = new_values_of(new_name, value);
         if (full == "Interface / Friction coefficient broken" &&
             value_in(scene, friction_law) == "coulomb")
           new_name = "Interface / Friction coefficient";
         if (full == push + "Value" && presses())
           new_value = opposite(value);
-        const std::string last =
-          new_name.substr(new_name.rfind("/ ") == std::string::npos ?
-                            0 :
-                            new_name.rfind("/ ") + 2);
+        const std::string last = new_name.substr(
+          new_name.rfind("/ ") == std::string::npos ? 0 :
+                                                      new_name.rfind("/ ") + 2);
         if (name == "File over" && path.front() == "Chuck")
-          return; // the columns of the file say it
+          {
+            // the columns of the file say it, but one that has both
+            if (value == "angle")
+              add_line(std::string(line.find_first_not_of(" \t"), ' ') +
+                       "# over the angle: if the file has a time, too, name "
+                       "both columns in File columns");
+            return;
+          }
         if (boost::starts_with(new_name, "Expert / "))
           {
             moved += "  set " + last + " = " + new_value + "\n";
@@ -340,9 +353,9 @@ namespace Debond
         add_line(with(line, name, last, value, new_value));
         const std::string broken =
           value_in(scene, "Interface / Friction coefficient broken");
-        const bool varies =
-          full == friction_law && value.find("{{") != std::string::npos &&
-          value.find("coulomb") != std::string::npos;
+        const bool varies = full == friction_law &&
+                            value.find("{{") != std::string::npos &&
+                            value.find("coulomb") != std::string::npos;
         const bool inherits =
           value == "coulomb" &&
           value_in(own, "Interface / Friction coefficient broken").empty();
@@ -370,10 +383,9 @@ namespace Debond
           }
         std::string tail = line.substr(equal + 1);
         if (new_value != value)
-          tail = value.empty() ? " " + new_value + tail :
-                                 tail.replace(tail.find(value),
-                                              value.size(),
-                                              new_value);
+          tail = value.empty() ?
+                   " " + new_value + tail :
+                   tail.replace(tail.find(value), value.size(), new_value);
         return head + "=" + tail;
       }
 

@@ -43,20 +43,20 @@ namespace Debond
   std::vector<LawEntry>
   BondFriction::entries(const std::vector<LawEntry> &more)
   {
-    const AllowedValues       coefficient = allowed_coefficient();
-    std::vector<LawEntry>     all{
+    const AllowedValues   coefficient = allowed_coefficient();
+    std::vector<LawEntry> all{
       {"",
-           "Friction coefficient broken",
-           "0.40",
-           coefficient,
-           "Friction coefficient mu_b of a debonded point, dimensionless. "
-               "Used by modified coulomb and table."},
+       "Friction coefficient broken",
+       "0.40",
+       coefficient,
+       "Friction coefficient mu_b of a debonded point, dimensionless. "
+       "Used by modified coulomb and table."},
       {"",
-           "Friction coefficient unbroken",
-           "0.58",
-           coefficient,
-           "Coefficient mu_ub of a fully bonded point, dimensionless. Used by "
-               "modified coulomb and table."}};
+       "Friction coefficient unbroken",
+       "0.58",
+       coefficient,
+       "Coefficient mu_ub of a fully bonded point, dimensionless. Used by "
+       "modified coulomb and table."}};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

@@ -139,8 +139,8 @@ namespace Debond
 
 
 
-    // Of the bond. Tables of allowed values keep a_s and b_s above zero, by which
-    // Eq. (13) divides.
+    // Of the bond. Tables of allowed values keep a_s and b_s above zero, by
+    // which Eq. (13) divides.
     std::vector<LawEntry>
     decay_entries()
     {
@@ -240,12 +240,13 @@ namespace Debond
   coulomb_plugin()
   {
     std::vector<LawEntry> entries = decay_entries();
-    entries.insert(entries.begin(),
-                   {"",
-                    "Friction coefficient",
-                    "0.40",
-                    BondFriction::allowed_coefficient(),
-                    "Coefficient mu of Friction law = coulomb, dimensionless."});
+    entries.insert(
+      entries.begin(),
+      {"",
+       "Friction coefficient",
+       "0.40",
+       BondFriction::allowed_coefficient(),
+       "Coefficient mu of Friction law = coulomb, dimensionless."});
     return {"coulomb",
             "constant, Friction coefficient",
             entries,

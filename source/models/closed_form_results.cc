@@ -127,9 +127,9 @@ namespace Debond
     const ClassicNumbers classic(out);
     const ModelKind      model = solution.scene.model;
     out << "Model "
-        << (model == ModelKind::foundation ? "foundation" :
+        << (model == ModelKind::foundation        ? "foundation" :
             model == ModelKind::prescribed_angles ? "prescribed angles" :
-                                             "crack")
+                                                    "crack")
         << ", pressure " << solution.model->disk.pressure << " MPa";
     if (solution.normal_stiffness > 0.)
       out << ", normal stiffness " << solution.normal_stiffness << " MPa/mm";

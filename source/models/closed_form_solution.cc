@@ -44,8 +44,7 @@ namespace Debond
                 "Interface / Bonding / Pattern",
                 std::string("this closed form knows homogeneous bonding ") +
                   (is_foundation ? "and the disk only" : "only"));
-      refuse_if(scene.model == ModelKind::crack &&
-                  bonding.initial_bonding != 1,
+      refuse_if(scene.model == ModelKind::crack && bonding.initial_bonding != 1,
                 "Interface / Bonding / Bonding degree",
                 "this closed form knows a fully bonded surface only");
       refuse_if(!scene.interface.is_friction_only(),
@@ -103,9 +102,10 @@ namespace Debond
       {
         const Chuck::Vector6 q = chuck.values(time);
         for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-          refuse_if(k != push && k != twist && q[k] != 0.,
-                    scene.chuck.entry_name(k, "Value"),
-                    "closed forms know Press (or Translation z) and Rotation z only");
+          refuse_if(
+            k != push && k != twist && q[k] != 0.,
+            scene.chuck.entry_name(k, "Value"),
+            "closed forms know Press (or Translation z) and Rotation z only");
         return {time, -q[push], q[twist]};
       }
 
@@ -277,17 +277,16 @@ namespace Debond
         }
       if (scene.model == ModelKind::crack)
         return crack_torsion(disk,
-                               given.shear_modulus,
-                               1e-3 * given.adhesion_energy, // N/mm
-                               disk.pressure *
-                                 disk.friction->mu_without_bond());
+                             given.shear_modulus,
+                             1e-3 * given.adhesion_energy, // N/mm
+                             disk.pressure * disk.friction->mu_without_bond());
       if (given.full_sliding < given.linear_limit)
         throw EntryError("Closed form / Linear limit angle",
                          "it is more than Slip counts from angle, " +
                            to_text(given.full_sliding) + " deg");
       return prescribed_angles_torsion(disk,
-                                given.linear_limit * degree,
-                                given.full_sliding * degree);
+                                       given.linear_limit * degree,
+                                       given.full_sliding * degree);
     }
 
 

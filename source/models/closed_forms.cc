@@ -392,8 +392,8 @@ namespace Debond
 
   std::unique_ptr<TorsionModel>
   prescribed_angles_torsion(const TorsionModel::Disk &disk,
-                     const double              linear_limit,
-                     const double              full_sliding)
+                            const double              linear_limit,
+                            const double              full_sliding)
   {
     // Eqs. (43) and (46): all of the disk sticks until theta_lin.
     TorsionModel::Disk own = disk;
@@ -409,9 +409,9 @@ namespace Debond
 
   std::unique_ptr<TorsionModel>
   crack_torsion(const TorsionModel::Disk &disk,
-                  const double              shear_modulus,
-                  const double              adhesion_energy,
-                  const double              friction_stress)
+                const double              shear_modulus,
+                const double              adhesion_energy,
+                const double              friction_stress)
   {
     auto model   = std::make_unique<MathieuTorsion>(disk);
     model->G     = shear_modulus;

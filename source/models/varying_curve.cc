@@ -21,9 +21,10 @@ namespace Debond
     std::vector<SceneEntry>
     without_reference(const std::vector<SceneEntry> &entries)
     {
-      return with_overrides(
-        entries,
-        {"Task=simulate", "Output/Reference curve=none", "Output/Console=quiet"});
+      return with_overrides(entries,
+                            {"Task=simulate",
+                             "Output/Reference curve=none",
+                             "Output/Console=quiet"});
     }
   } // namespace
 
@@ -47,8 +48,9 @@ namespace Debond
   {
     std::string of_bodies;
     for (const SceneEntry &entry : changed)
-      if (!entry.subsections.empty() && (entry.subsections.front() == "Bone" ||
-                                         entry.subsections.front() == "Implant"))
+      if (!entry.subsections.empty() &&
+          (entry.subsections.front() == "Bone" ||
+           entry.subsections.front() == "Implant"))
         of_bodies += entry.full_name() + "=" + entry.value + "\n";
     if (of_bodies != bulk_entries)
       {
@@ -76,14 +78,15 @@ namespace Debond
     as_foundation.model       = ModelKind::foundation;
     const std::string why     = Debond::why_no_closed_form(as_foundation);
     const auto        pattern = given.interface.bonding_of_law().pattern;
-    return !why.empty()                  ? why :
-           given.load_steps.follow_path ? "the scene follows a path" :
+    return !why.empty() ? why :
+           given.load_steps.follow_path ?
+                          "the scene follows a path" :
            given.chuck.component[twist].stiffness > 0. ?
-                                          "the machine is compliant" :
+                          "the machine is compliant" :
            pattern != BondingPatternKind::homogeneous &&
                pattern != BondingPatternKind::disk ?
-                                          "closed forms know homogeneous bonding and the disk" :
-                                          "";
+                          "closed forms know homogeneous bonding and the disk" :
+                          "";
   }
 
 
@@ -93,17 +96,16 @@ namespace Debond
   {
     const Scene                &now  = take(changed);
     const ClosedFormParameters &form = now.closed_form;
-    const bool                  are_rigid =
-      now.bone.material == Material::rigid &&
-      now.implant.material == Material::rigid;
+    const bool are_rigid             = now.bone.material == Material::rigid &&
+                           now.implant.material == Material::rigid;
     if (are_rigid ||
         (form.torsional_stiffness > 0. && form.normal_stiffness > 0.))
       return {{0., 0.}};
     const FoundationStiffness stiffness =
       foundation_stiffness(now, &linear_bodies);
-    return {{1. / stiffness.normal - 1. / now.interface.normal_penalty,
-            1. / stiffness.torsional -
-              1. / now.interface.tangential_stiffness()}};
+    return {
+      {1. / stiffness.normal - 1. / now.interface.normal_penalty,
+       1. / stiffness.torsional - 1. / now.interface.tangential_stiffness()}};
   }
 
 
@@ -119,7 +121,7 @@ namespace Debond
                               const double of_interface,
                               const double of_bodies) {
       return given_stiffness > 0. ? given_stiffness :
-                                    1. / (1. / of_interface + of_bodies);
+                                                     1. / (1. / of_interface + of_bodies);
     };
     const TorsionModel::Disk disk =
       foundation_disk(now,

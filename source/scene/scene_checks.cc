@@ -69,8 +69,7 @@ namespace Debond
         }
       catch (const InputError &error)
         {
-          throw EntryError(scene.chuck.entry_name(c, "Value"),
-                           error.what());
+          throw EntryError(scene.chuck.entry_name(c, "Value"), error.what());
         }
     }
 

@@ -18,13 +18,13 @@ namespace Debond
         "Mean contact pressure p [MPa] during the rotation. `auto': from "
         "Chuck / Press or Translation z: a force, or a depth times Normal "
         "stiffness.");
-      table.add("Normal stiffness",
-                closed_form.normal_stiffness,
-                Allowed::number_between(1e-6, 1e15, "MPa/mm")
-                  .or_word_for("auto", "0"),
-                "Mean pressure per depth of push-in [MPa/mm], interface and "
-                "bodies in series. `auto': from one linear solution with the bodies "
-                "of the scene.");
+      table.add(
+        "Normal stiffness",
+        closed_form.normal_stiffness,
+        Allowed::number_between(1e-6, 1e15, "MPa/mm").or_word_for("auto", "0"),
+        "Mean pressure per depth of push-in [MPa/mm], interface and "
+        "bodies in series. `auto': from one linear solution with the bodies "
+        "of the scene.");
       table.add(
         "Torsional stiffness",
         closed_form.torsional_stiffness,

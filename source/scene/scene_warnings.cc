@@ -267,8 +267,9 @@ namespace Debond
         std::minmax_element(values.begin(), values.end());
       note(*least >= 0. && *most > 0. && scene.interface.is_friction_only(),
            "direction of the push",
-           entry + std::string(z.into_bone ? " is never positive" :
-                                             " is never negative") +
+           entry +
+             std::string(z.into_bone ? " is never positive" :
+                                       " is never negative") +
              ": it pulls the implant off the bone. What presses is positive "
              "in Chuck / Press; Interface / Law = adhesive holds against a "
              "pull");
@@ -421,8 +422,7 @@ namespace Debond
             values.push_back(value_at(time));
           const std::string entry =
             component.file.empty() ?
-              scene.chuck.entry_name(k, "Value") + " = " +
-                component.value :
+              scene.chuck.entry_name(k, "Value") + " = " + component.value :
               scene.chuck.entry_name(k, "File") + " = " + component.file;
           note(values == std::vector<double>(values.size(), values[0]) &&
                  changes_later(component, value_at, times),

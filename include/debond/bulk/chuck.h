@@ -134,7 +134,9 @@ namespace Debond
     TimeFunction
     value_as_given(unsigned int component, double radius) const;
     void
-    declare_component(unsigned int component, bool into_bone, EntryTable &table);
+    declare_component(unsigned int component,
+                      bool         into_bone,
+                      EntryTable  &table);
 
     /** Translation z in the tables of a scene that has Press. */
     ChuckComponentParameters unset;

@@ -255,8 +255,8 @@ namespace Debond
    */
   std::unique_ptr<TorsionModel>
   prescribed_angles_torsion(const TorsionModel::Disk &disk,
-                     double                    linear_limit,
-                     double                    full_sliding);
+                            double                    linear_limit,
+                            double                    full_sliding);
 
   /**
    * The model of Mathieu et al. (2012) as the paper prints it, Eqs. (14) to
@@ -270,8 +270,8 @@ namespace Debond
    */
   std::unique_ptr<TorsionModel>
   crack_torsion(const TorsionModel::Disk &disk,
-                  double                    shear_modulus,
-                  double                    adhesion_energy,
-                  double                    friction_stress);
+                double                    shear_modulus,
+                double                    adhesion_energy,
+                double                    friction_stress);
 } // namespace Debond
 #endif

@@ -4,8 +4,8 @@ table = dir . "stiffness.csv"
 families = "'trilinear' 'quadratic graded to the rim' 'splines' 'splines graded to the rim' 'splines that follow the rim'"
 labels = "'trilinear' 'quadratic, graded' 'splines' 'splines, graded' 'splines, fitted'"
 colours = "blue sky green orange red"
-stiffnesses = "585 1800 1e4 1e5 1e6"
-spoken = "585 1800 10^4 10^5 10^6 MPa/mm"
+stiffnesses = "622 1800 1e4 1e5 1e6"
+spoken = "622 1800 10^4 10^5 10^6 MPa/mm"
 array symbol[5] = [5, 13, 9, 11, 7]
 do for [format in "png svg"] {
   load "doc/style.gp"

@@ -478,6 +478,10 @@ namespace Debond
         {"Output / Observed bonding", is_bonded, "laws with a bond"}};
       for (const SceneEntry &entry : scene.changed_entries)
         {
+          // What an included file sets is for several scenes.
+          if (entry.place != "--set" &&
+              entry.place.rfind(scene.name + ":", 0) != 0)
+            continue;
           const std::string name = entry.full_name();
           const std::string text = name + " = " + shortened(entry.value) +
                                    " has no effect in this scene: it is for ";

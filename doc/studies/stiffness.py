@@ -45,7 +45,7 @@ def difference(points, lines):
 def make_references():
     run('stiffness_reference')
     for i, eps in enumerate(STIFFNESSES):
-        points, kept = curve(2 * i + 1, 'torque.csv'), []
+        points, kept = curve(i + 1, 'torque.csv'), []
         T_max = max(torque for _, torque in points)
         for k, point in enumerate(points):  # up to 1 % of T_max or 0.2 degrees apart
             after = points[k + 1] if k + 1 < len(points) else None
@@ -54,7 +54,7 @@ def make_references():
         with open(DATA / ('stiffness_%s.csv' % eps), 'w') as file:
             file.write('# Made by doc/studies/stiffness.py --reference: cells fitted 40, 13, 22, 18 and 28, 10, 8, %s MPa/mm.\n' % eps +
                        '# Cells fitted 28, 9, 16, 13 and 20, 7, 6 differ by %.1e of T_max at most.\n' %
-                       difference(points, curve(2 * i + 2, 'curve.csv')) + 'angle_deg,torque_Nmm\n' +
+                       difference(points, curve(i + 1 + len(STIFFNESSES), 'curve.csv')) + 'angle_deg,torque_Nmm\n' +
                        ''.join('%.8g,%.8g\n' % point for point in kept))
     other = [(float(row['angle_deg']), float(row['torque_Nmm'])) for row in rows(COARSE)]
     print('At 622 MPa/mm, from splines on 200 x 200 x 14 cells: %.1e' % difference(other[1:], [(0, 0)] + curve(1, 'curve.csv')))

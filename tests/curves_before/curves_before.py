@@ -77,7 +77,9 @@ def run(debond, name, more):
                                 cwd=os.path.join(here, '..', '..'), text=True, capture_output=True)
         if result.returncode != 0:
             sys.exit('%s ended with %d: %s%s' % (name, result.returncode, result.stdout[-1000:], result.stderr))
-        files = sorted(glob.glob(directory + '/result/variant-*/torque.csv')) or [directory + '/result/torque.csv']
+        result = directory + '/result/'
+        files = (sorted(glob.glob(result + 'variant-*/torque.csv')) or glob.glob(result + 'torque.csv')
+                 or [result + 'reactions.csv'])
         curves = [read(file, i) for i, file in enumerate(files)]
     return curves[0][0], numpy.vstack([rows for _, rows in curves])
 

@@ -311,7 +311,7 @@ def test_others():
     check("not finished" in text and reason in words(text), "a run that failed does not say why")
     simulate("pull", "Chuck/Rotation z/Value=0", "Chuck/Translation x/Value=0.05 * max(t - 1, 0)")
     text = page("pull")
-    curve_is_that_of(text, table("pull/torque.csv"), "chuck_ux_mm", "chuck_Fx_N")
+    curve_is_that_of(text, table("pull/reactions.csv"), "chuck_ux_mm", "chuck_Fx_N")
     check("Force along x [N]" in text and "Displacement along x [mm]" in text, "axes of a pull")
     check("largest torque" not in text, "the noise of a torque is shown")
     simulate("closed", "Model=foundation")

@@ -44,17 +44,16 @@ def read(path):
 
 
 def run_debond(program, scene, changes):
-    """The rows of a run, as numbers by column."""
+    """The rows of torque.csv, as numbers by column."""
     with tempfile.TemporaryDirectory() as directory:
         result = os.path.join(directory, 'results')
         command = [program, '--threads', '1', scene]
-        for change in changes + ['Output/Directory=' + result, 'Output/Fields every=none']:
+        for change in changes + ['Output/Directory=' + result, 'Output/Fields every=none', 'Output/Curve=Rotation z, Moment z']:
             command += ['--set', change]
         run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if run.returncode:
             sys.exit('%s\nFAILED: debond ended with exit code %d' % (run.stdout, run.returncode))
-        forces = os.path.join(result, 'reactions.csv')
-        return read(forces if os.path.exists(forces) else os.path.join(result, 'torque.csv'))
+        return read(os.path.join(result, 'torque.csv'))
 
 
 def write(path, rows):

@@ -172,11 +172,11 @@ namespace Debond
       console.headline(scene.title);
     if (const std::string line = scene.values_of_the_paper(); !line.empty())
       console.headline(line);
-    const std::string file = directory.file(scene.output.axes.rows_file());
-    // left by an earlier run with another curve
-    if (const std::string old = rows_file(directory.path()); old != file)
-      remove_file(old);
-    torque_curve.emplace(file, torque_table(rows));
+    const std::string file = scene.output.axes.rows_file();
+    for (const std::string other : {"torque.csv", "reactions.csv"})
+      if (other != file) // left by an earlier run with another curve
+        remove_file(directory.file(other));
+    torque_curve.emplace(directory.file(file), torque_table(rows));
   }
 
 

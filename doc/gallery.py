@@ -22,7 +22,8 @@ import sys
 import tempfile
 import time
 
-sys.path.pop(0)  # doc/numbers.py would hide the module of this name, which NumPy needs
+# not doc, whose numbers.py would hide the module of this name, which NumPy needs
+sys.path[0] = os.path.join(os.path.dirname(__file__), "..", "python")
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
@@ -30,6 +31,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
 from PIL import Image  # noqa: E402
+
+from debond.page_data import rows_file  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 GALLERY = os.path.join(ROOT, "doc", "gallery")
@@ -115,7 +118,7 @@ def label_of(name):
 
 def curve_of(directory):
     """-> names of the axes, x, y: the torque over the angle or, without one, that motion of the chuck that does most of the work"""
-    table = table_of(os.path.join(directory, "torque.csv"))
+    table = table_of(rows_file(directory))
     best = (0, "angle_deg", "torque_Nmm")
     pairs = [("angle_deg", "torque_Nmm", np.pi / 180)]
     pairs += [(f"chuck_u{axis}_mm", f"chuck_F{axis}_N", 1) for axis in "xyz"]
@@ -321,7 +324,7 @@ def run(scene, program, limit):
             variants = done
             note = f"Drawn from {len(done)} of {n_variants} variants." if len(done) < n_variants else ""
         elif n_variants:
-            variants = [path for path in variants if os.path.exists(os.path.join(path, "torque.csv"))][:1]
+            variants = [path for path in variants if os.path.exists(rows_file(path))][:1]
             note = f"Drawn from a part of the first of {n_variants} variants."
         else:
             note = "Drawn from the first part of the run."

@@ -25,6 +25,9 @@ import time
 import zlib
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
+sys.path.append('python')
+from debond.page_data import curve_file, rows_file  # noqa: E402
+
 BLOCK = re.compile(r'(<!-- numbers: (\w+) -->)(.*?)(<!-- end -->)', re.S)
 NUMBER = re.compile(r'(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?')
 MAIN, REFERENCE = 'prm/coin_mode3.prm', 'Output/Reference curve=prm/studies/data/work_precision_torque.csv'
@@ -60,16 +63,16 @@ def debond(scene, directory, *changes, force=True, ranks=0):
 
 @functools.lru_cache(None)
 def run(scene, *changes):
-    """The summary of a run, with its rows, those of torque.csv, and the curve between them, those of curve.csv."""
+    """The summary of a run, with its rows and the curve between them, those of curve.csv."""
     directory = directory_of(scene, changes)
     debond(scene, directory, 'Output/Fields every=none', *changes)
     with open(directory + '/summary.json', encoding='utf-8') as text:
         summary = json.load(text)
-    return {**summary, 'curve': rows_of(directory + '/torque.csv'), 'fine curve': fine_curve(directory)}
+    return {**summary, 'curve': rows_of(rows_file(directory)), 'fine curve': fine_curve(directory)}
 
 
 def fine_curve(directory):
-    return rows_of(directory + ('/curve.csv' if os.path.exists(directory + '/curve.csv') else '/torque.csv'))
+    return rows_of(curve_file(directory))
 
 
 @functools.lru_cache(None)

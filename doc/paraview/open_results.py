@@ -67,7 +67,7 @@ class Mistake(Exception):
 
 
 class Frame:
-    """One file of interface.pvd, that of bulk.pvd, and their row of torque.csv: angle [deg], torque [N mm], forces [N]."""
+    """One file of interface.pvd, that of bulk.pvd, and their row of the run: angle [deg], torque [N mm], forces [N]."""
 
     def __init__(self, name, bulk, row):
         self.name, self.bulk = name, bulk
@@ -82,19 +82,20 @@ def read_frames(directory):
     """Files of the series, in their order."""
     if not os.path.isdir(directory):
         raise Mistake("%s: there is no such directory" % directory)
-    faces, bulks, table = (os.path.join(directory, name) for name in ("interface.pvd", "bulk.pvd", "torque.csv"))
+    faces, bulks, table, forces = (os.path.join(directory, name)
+                                   for name in ("interface.pvd", "bulk.pvd", "torque.csv", "reactions.csv"))
     if not os.path.isfile(faces):
         raise Mistake("%s: no interface.pvd there; it is written by finite elements with Output / Fields every above 0"
                       % directory)
     try:
-        with open(table) as file:
+        with open(forces if os.path.isfile(forces) else table) as file:
             rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
         files = [[(float(file.get("timestep")), os.path.join(directory, file.get("file")))
                   for file in xml.etree.ElementTree.parse(series).iter("DataSet")] for series in (faces, bulks)]
     except (OSError, KeyError, TypeError, ValueError, xml.etree.ElementTree.ParseError) as error:
-        raise Mistake("%s: interface.pvd, bulk.pvd or torque.csv cannot be read: %s" % (directory, error))
+        raise Mistake("%s: interface.pvd, bulk.pvd, or torque.csv or reactions.csv, cannot be read: %s" % (directory, error))
     if not rows or not files[0]:
-        raise Mistake("%s: interface.pvd or torque.csv holds nothing yet" % directory)
+        raise Mistake("%s: interface.pvd, torque.csv or reactions.csv holds nothing yet" % directory)
     frames, row = [], 0
     for (time, name), (_, bulk) in zip(*files):
         for file in (name, bulk):

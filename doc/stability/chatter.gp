@@ -1,6 +1,6 @@
 # The lateral force on a cap that slides without friction, output/stability/chatter.png. Called by doc/stability/stability.sh
 # --draw, which makes the runs.
-results(name) = "output/stability/" . name . "/torque.csv"
+results(name) = "output/stability/" . name . "/reactions.csv"
 do for [format in "png svg"] {
   load "doc/style.gp"
   eval picture("output/stability/chatter", 1000, 600)

@@ -13,8 +13,8 @@ do for [format in "png svg"] {
   set xrange [0:10]
   set yrange [0:70]
   plot results("integrated") using "angle_deg":"torque_Nmm" with lines linetype 10 title "integrated, 0.1°", \
-    results("previous_gap_fine") using "angle_deg":"torque_Nmm" with lines linetype 2 title "previous gap, 0.01°", \
-    results("previous_gap") using "angle_deg":"torque_Nmm" with lines linetype 4 title "previous gap, 0.1°"
+    results("previous_gap_fine") using "angle_deg":"torque_Nmm" with lines linetype 2 title "previous gap, 0.1°", \
+    results("previous_gap") using "angle_deg":"torque_Nmm" with lines linetype 4 title "previous gap, 0.2°"
 
   set title "Friction coefficient, by step"
   set xrange [0.4:2.2]

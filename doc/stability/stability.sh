@@ -38,8 +38,8 @@ run() {
 draw_pictures() {
   command -v gnuplot > /dev/null || { echo "stability.sh: gnuplot is needed to draw" >&2; exit 1; }
   run slip_direction integrated
-  run slip_direction previous_gap "Expert/Slip direction=previous gap"
-  run slip_direction previous_gap_fine "Expert/Slip direction=previous gap" "Load steps/Steps=1, 1000"
+  run slip_direction previous_gap "Expert/Slip direction=previous gap" "Load steps/Steps=1, 50"
+  run slip_direction previous_gap_fine "Expert/Slip direction=previous gap"
   run softening implicit "Load steps/Steps=1, 1000"
   for steps in 50 100 1000; do
     run softening explicit_$steps "Expert/Friction update=explicit" "Load steps/Steps=1, $steps"

@@ -16,6 +16,9 @@ import sys
 import time
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
+sys.path.append(os.path.join(ROOT, 'python'))
+from debond.page_data import curve_file, rows_file  # noqa: E402
+
 DEBOND = os.environ.get('DEBOND', 'build/release/debond')
 CALCULIX_INPUT = os.environ.get('CALCULIX_INPUT', 'build/release/tests/comparison/calculix/calculix_input')
 CCX = os.environ.get('CCX', 'ccx')
@@ -117,7 +120,7 @@ def order():
     for number, (label, phases, motion, entries) in enumerate(CASES):
         def steps(n):
             chosen = settings(phases, motion, entries, Steps='30' + ', %d' % n * phases)
-            return rows_of(run('case-%d-%d' % (number, n), chosen) + '/torque.csv')
+            return rows_of(rows_file(run('case-%d-%d' % (number, n), chosen)))
         fine = {round(row['time'], 9): row for row in steps(REFERENCE_STEPS)}
         before = None
         for n in STEPS:
@@ -168,9 +171,8 @@ def codes():
 
     def ours(name, direction, **load_steps):
         directory = run(name, settings(2, SHEAR_THEN_TWIST, {**CODES, 'Expert/Slip direction': direction}, **load_steps))
-        fine = directory + '/curve.csv'
         with open(directory + '/wall_seconds', encoding='utf-8') as file:
-            return rows_of(fine if os.path.exists(fine) else directory + '/torque.csv'), float(file.read())
+            return rows_of(curve_file(directory)), float(file.read())
 
     reference = ours('code-reference', 'integrated', Steps='1, 4000, 4000')[0]
     for direction in ('integrated', 'trial'):

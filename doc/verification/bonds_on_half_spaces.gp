@@ -7,7 +7,7 @@ array tau[5] = [5, 20, 40, 80, 200]
 set print $pulled
 print "strength_MPa,force_N"
 do for [i=1:6] {
-  stats sprintf("output/kendall/variant-%03d/torque.csv", i) using (-column("force_N")) nooutput
+  stats sprintf("output/kendall/variant-%03d/reactions.csv", i) using (-column("force_N")) nooutput
   print sprintf("%g,%g", t_0[i], STATS_max)
 }
 unset print

@@ -9,7 +9,7 @@ lambda(E) = 10 * (50 / (pi * w * (4. / 3 * E / 0.91)**2))**(1. / 3)
 set datafile separator comma
 set datafile columnheaders
 do for [i=1:6] {
-  stats sprintf("output/cap_pulled_off/variant-%03d/torque.csv", i) using "force_N" nooutput
+  stats sprintf("output/cap_pulled_off/variant-%03d/reactions.csv", i) using "force_N" nooutput
   print sprintf("%g,%g", lambda(E[i]), -STATS_min / (pi * w * 50))
 }
 unset print

@@ -86,7 +86,7 @@ def compare(directory, curve, columns=()) -> Comparisons:
     own, is_study = curve_file(directory), os.path.exists(directory + "/study.csv")
     if not is_study and not os.path.exists(own):
         raise InputError(f"debond: --compare {directory}: there are no results in this directory, neither torque.csv nor "
-                         "study.csv")
+                         "reactions.csv nor study.csv")
     positions, loads = measured
     units = [split_unit(name)[1].replace("°", "deg") for name in axes]
     lines = [f"{curve}: {said}; {len(positions)} rows, from {positions.min():.4g} to {positions.max():.4g} {units[0]}, "

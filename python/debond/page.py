@@ -14,7 +14,8 @@ from debond.page_specimens import context_of_specimens
 #: What a directory of each kind holds, its template and what fills that.
 KINDS = (("study.csv", "study.html", context_of_study), ("calibration.json", "calibration.html", context_of_calibration),
          ("specimens.json", "specimens.html", context_of_specimens),
-         ("summary.json", "run.html", context_of_run), ("torque.csv", "run.html", context_of_run))
+         ("summary.json", "run.html", context_of_run), ("torque.csv", "run.html", context_of_run),
+         ("reactions.csv", "run.html", context_of_run))
 
 
 def page_of(directory):
@@ -31,8 +32,8 @@ def page_of(directory):
                                        table_of=table_of, with_unit=with_unit)
             environment.filters["symbols"] = lambda text: markupsafe.Markup(symbols(str(markupsafe.escape(text))))
             return environment.get_template(template).render(context(directory))
-    raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, study.csv, calibration.json or "
-                    "specimens.json)")
+    raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, reactions.csv, study.csv, "
+                    "calibration.json or specimens.json)")
 
 
 def write_page(directory):

@@ -42,10 +42,16 @@ def read_table(path):
     return dict(zip(names, map(list, zip(*rows)))) if rows else {name: [] for name in names}
 
 
+def rows_file(directory):
+    """The rows of a run: reactions.csv where the curve is no torque."""
+    forces = os.path.join(directory, "reactions.csv")
+    return forces if os.path.exists(forces) else os.path.join(directory, "torque.csv")
+
+
 def curve_file(directory):
     """The curve between the rows if there is one, otherwise the rows."""
     fine = os.path.join(directory, "curve.csv")
-    return fine if os.path.exists(fine) else os.path.join(directory, "torque.csv")
+    return fine if os.path.exists(fine) else rows_file(directory)
 
 
 def curve_columns(summary):

@@ -64,11 +64,11 @@ namespace Debond
         component.file,
         Allowed::text("the name of a CSV file", false).or_word_for("none", ""),
         "Table of values over time or angle: a file from an instrument or "
-        "spreadsheet, or the torque.csv of a run, relative to the working "
-        "directory. It needs two rows at least, and must cover all times, or "
-        "angles, of the scene; between rows there are monotone cubics. With "
-        "an angle (deg, rad) in place of the time, values are over the angle "
-        "that Rotation z prescribes. `none': no table.");
+        "spreadsheet, or the torque.csv or reactions.csv of a run, relative to "
+        "the working directory. It needs two rows at least, and must cover all "
+        "times, or angles, of the scene; between rows there are monotone "
+        "cubics. With an angle (deg, rad) in place of the time, values are "
+        "over the angle that Rotation z prescribes. `none': no table.");
       table.add(
         "File columns",
         component.columns,

@@ -82,7 +82,7 @@ namespace Debond
     if (has_this_scene)
       summary = read_json(output.directory + "/summary.json");
     done = summary.value("converged", false) &&
-           std::filesystem::exists(output.directory + "/torque.csv");
+           std::filesystem::exists(rows_file(output.directory));
     const std::string program =
       summary.value("/provenance/program"_json_pointer, std::string());
     other_program = done && program != program_and_version() ? program : "";

@@ -172,7 +172,11 @@ namespace Debond
       console.headline(scene.title);
     if (const std::string line = scene.values_of_the_paper(); !line.empty())
       console.headline(line);
-    torque_curve.emplace(directory.file("torque.csv"), torque_table(rows));
+    const std::string file = scene.output.axes.rows_file();
+    for (const std::string other : {"torque.csv", "reactions.csv"})
+      if (other != file) // left by an earlier run with another curve
+        remove_file(directory.file(other));
+    torque_curve.emplace(directory.file(file), torque_table(rows));
   }
 
 

@@ -26,8 +26,8 @@ namespace Debond
     static const std::regex rung("rung-[0-9]+"),
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
            "report\\.html|torque\\.(svg|png)|"
-           "(torque|curve|curve_at|reference|auto|bonding|profiles|friction_law|maps)"
-           "\\.csv|"
+           "(torque|reactions|curve|curve_at|reference|auto|bonding|profiles|"
+           "friction_law|maps)\\.csv|"
            "(bulk|interface)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :
@@ -137,10 +137,19 @@ namespace Debond
 
 
   std::string
+  rows_file(const std::string &directory)
+  {
+    const std::string forces = directory + "/reactions.csv";
+    return std::filesystem::exists(forces) ? forces : directory + "/torque.csv";
+  }
+
+
+
+  std::string
   finest_curve(const std::string &directory)
   {
     const std::string fine = directory + "/curve.csv";
-    return std::filesystem::exists(fine) ? fine : directory + "/torque.csv";
+    return std::filesystem::exists(fine) ? fine : rows_file(directory);
   }
 
 

@@ -253,9 +253,10 @@ namespace Debond
         output.reference_curve,
         Allowed::text("the name of a CSV file", false).or_word_for("none", ""),
         "Table that the curve is compared with: a file from an instrument or "
-        "spreadsheet, or the torque.csv of a run. Columns are separated by "
-        "semicolons, tabs, commas or blanks; units are read from the names "
-        "of the columns, as in torque [N m]. `none': no comparison.");
+        "spreadsheet, or the torque.csv or reactions.csv of a run. Columns are "
+        "separated by semicolons, tabs, commas or blanks; units are read from "
+        "the names of the columns, as in torque [N m]. `none': no "
+        "comparison.");
       table.add(
         "Reference columns",
         output.reference_columns,

@@ -73,7 +73,8 @@ def run(debond, name, more):
     scene, arguments, _ = SCENES[name]
     with tempfile.TemporaryDirectory() as directory:
         result = subprocess.run([debond, 'prm/%s.prm' % scene, *arguments, *more, '--set', 'Output/Fields every=none',
-                                 '--set', 'Output/Report=false', '--set', 'Output/Directory=' + directory + '/result'],
+                                 '--set', 'Output/Report=false', '--set', 'Output/Directory=' + directory + '/result',
+                                 '--set', 'Output/Curve=Rotation z, Moment z'],
                                 cwd=os.path.join(here, '..', '..'), text=True, capture_output=True)
         if result.returncode != 0:
             sys.exit('%s ended with %d: %s%s' % (name, result.returncode, result.stdout[-1000:], result.stderr))

@@ -49,6 +49,7 @@ namespace
       std::filesystem::create_directories(path + "/" + directory);
     for (const std::string file : {"summary.json",
                                    "torque.csv",
+                                   "reactions.csv",
                                    "auto.csv",
                                    "bulk.pvd",
                                    "interface-0012.vtu",

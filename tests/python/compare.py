@@ -146,7 +146,7 @@ def check_program():
              RUN.replace("deg]'", "deg]' as [deg]").replace("Nm]'", "Nm]' as [Nm]")),
             (["run", "measured.csv", "--columns", "1"], 1, "--columns = '1': expected 2 columns, separated by commas\n"),
             (["nothing", "measured.csv"], 1,
-             "debond: --compare nothing: there are no results in this directory, neither torque.csv nor study.csv\n"),
+             "debond: --compare nothing: there are no results in this directory, neither torque.csv nor reactions.csv nor study.csv\n"),
             (["run", "missing.csv"], 1, "--compare = 'missing.csv': this file cannot be read: No such file or directory\n"),
             ([], 1, ""), (["run"], 1, ""), (["run", "measured.csv", "--force"], 1, ""),
             (["run", "measured.csv", "--columns"], 1, "")):
@@ -169,7 +169,7 @@ def check_program():
 def check_pull():
     """A curve that is pressed to -1 mm, pulled up to 2 mm by 10 N/mm and let go, and measured as 11 and 22 N at 1 and 2 mm: the
     differences are 1 and 2 N of 22 N. Its names are in summary.json."""
-    write("pull/torque.csv", "chuck_uz_mm,chuck_Fz_N\n0,0\n-1,-99\n-1,-10\n2,20\n0,0\n")
+    write("pull/reactions.csv", "chuck_uz_mm,chuck_Fz_N\n0,0\n-1,-99\n-1,-10\n2,20\n0,0\n")
     write("pull/summary.json", '{"curve": {"over": "chuck_uz_mm", "load": "chuck_Fz_N"}}')
     write("pulled.csv", "way [mm],pull [N]\n1,11\n2,22\n")
     found = compare("pull", "pulled.csv")

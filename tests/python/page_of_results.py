@@ -309,9 +309,12 @@ def test_others():
     with open("failed/summary.json") as file:
         reason = json.load(file)["reason"]
     check("not finished" in text and reason in words(text), "a run that failed does not say why")
+    os.makedirs("pull", exist_ok=True)
+    open("pull/torque.csv", "w").close()  # as an earlier run with another curve leaves it
     simulate("pull", "Chuck/Rotation z/Value=0", "Chuck/Translation x/Value=0.05 * max(t - 1, 0)")
+    check(not os.path.exists("pull/torque.csv"), "the rows of an earlier run stay")
     text = page("pull")
-    curve_is_that_of(text, table("pull/torque.csv"), "chuck_ux_mm", "chuck_Fx_N")
+    curve_is_that_of(text, table("pull/reactions.csv"), "chuck_ux_mm", "chuck_Fx_N")
     check("Force along x [N]" in text and "Displacement along x [mm]" in text, "axes of a pull")
     check("largest torque" not in text, "the noise of a torque is shown")
     simulate("closed", "Model=foundation")

@@ -1,5 +1,7 @@
 #include "expectations.h"
 
+#include <debond/output/result_files.h>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -136,7 +138,7 @@ namespace Expectations
   {
     const auto position = std::find(columns.begin(), columns.end(), name);
     if (position == columns.end())
-      throw Problem("torque.csv has no column " + name);
+      throw Problem("the rows have no column " + name);
     return position - columns.begin();
   }
 
@@ -146,7 +148,7 @@ namespace Expectations
   read_results(const std::string &directory)
   {
     return {directory,
-            read_table(directory + "/torque.csv"),
+            read_table(Debond::rows_file(directory)),
             read_summary(directory + "/summary.json")};
   }
 
@@ -213,7 +215,7 @@ namespace Expectations
                       static_cast<unsigned int>(variants.size() + 1));
         try
           {
-            results.table = read_table(directory + name + "/torque.csv");
+            results.table = read_table(Debond::rows_file(directory + name));
           }
         catch (const Problem &) // a variant that failed
           {}
@@ -239,7 +241,7 @@ namespace Expectations
       for (auto row = table.rows.rbegin(); row != table.rows.rend(); ++row)
         if (std::abs((*row)[where_column] - position) <= tolerance)
           return (*row)[column];
-      throw Problem("torque.csv has no such row");
+      throw Problem("there is no such row");
     }
 
 
@@ -262,7 +264,7 @@ namespace Expectations
             ++n;
           }
       if (n < 2)
-        throw Problem("torque.csv has no such rows");
+        throw Problem("there are no such rows");
       return (highest - lowest) / std::abs(sum / n);
     }
 

@@ -18,7 +18,7 @@
 //
 // A name alone is a key of summary.json (true counts as 1), in a study a column
 // of study.csv; so may the bound of `below' and `above' be. `at COLUMN VALUE`
-// is the last row of torque.csv with that value in that column, `max` the
+// is the last row of the run with that value in that column, `max` the
 // largest absolute value in a column, `ripple after COLUMN VALUE` the largest
 // less the smallest value, relative to their mean, in rows where the other
 // column is at least that. Levels are those of Model = auto, in all variants,
@@ -45,7 +45,7 @@ namespace Expectations
   struct Results
   {
     std::string                   directory;
-    Table                         table;   ///< torque.csv
+    Table                         table;   ///< the rows
     std::map<std::string, double> summary; ///< its numbers and booleans
   };
 

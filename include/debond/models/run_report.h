@@ -15,15 +15,16 @@
 
 namespace Debond
 {
-  /** What runs leave of their rows, whatever the model: torque.csv, profiles,
-   *  lines on the console and, at the end, summary.json. */
+  /** What runs leave of their rows, whatever the model: torque.csv or
+   *  reactions.csv, profiles, lines on the console and, at the end,
+   *  summary.json. */
   class RunReport
   {
   public:
     RunReport(const Scene &scene, const ResultDirectory &directory);
 
-    /** Begins torque.csv with the rows that there are already; @p points are
-     *  those of the interface at the last of them. */
+    /** Begins CurveAxes::rows_file() with the rows that there are already;
+     *  @p points are those of the interface at the last of them. */
     void
     begin(const std::vector<TorqueRow> &rows,
           const InterfaceMaps::Points  &points = {});

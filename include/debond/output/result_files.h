@@ -66,8 +66,13 @@ namespace Debond
   std::string
   variant_name(unsigned int number);
 
-  /** The file in a directory of results with the finest torque curve:
-   *  curve.csv, or torque.csv where there is none. */
+  /** The file in a directory of results with the rows of a run of any scene,
+   *  see CurveAxes::rows_file(). */
+  std::string
+  rows_file(const std::string &directory);
+
+  /** The file in a directory of results with the finest curve: curve.csv, or
+   *  rows_file() where there is none. */
   std::string
   finest_curve(const std::string &directory);
 

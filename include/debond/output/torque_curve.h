@@ -19,8 +19,8 @@ namespace Debond
 
 
 
-  /** One row of torque.csv: the accepted state at the end of a planned step.
-   *  All figures are what the chuck exerts on the implant. */
+  /** One row of torque.csv, or reactions.csv: the accepted state at the end of
+   * a planned step. All figures are what the chuck exerts on the implant. */
   struct TorqueRow
   {
     unsigned int step       = 0;

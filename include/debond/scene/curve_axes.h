@@ -22,7 +22,14 @@ namespace Debond
     {
       return position == ChuckComponent::rotation_z && load == position;
     }
-    /** Columns of torque.csv. */
+    /** The name of the file with the rows of a run: who pulls an implant out
+     *  looks for no torque. */
+    std::string
+    rows_file() const
+    {
+      return is_torsion() ? "torque.csv" : "reactions.csv";
+    }
+    /** Columns of rows_file(). */
     std::string
     position_column() const;
     std::string

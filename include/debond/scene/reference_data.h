@@ -16,10 +16,10 @@ namespace Debond
 
   /**
    * Reads a reference curve from a table as instruments write them, or the
-   * torque.csv or curve.csv of a run, see read_measured_table(). @p columns:
-   * `Output / Reference columns`. Throws EntryError that names the entry, the
-   * file, the line and what was expected. An empty @p filename gives an empty
-   * curve.
+   * torque.csv, reactions.csv or curve.csv of a run, see read_measured_table().
+   * @p columns: `Output / Reference columns`. Throws EntryError that names the
+   * entry, the file, the line and what was expected. An empty @p filename gives
+   * an empty curve.
    */
   ReferenceCurve
   read_reference_curve(const std::string              &filename,

@@ -106,7 +106,8 @@ awk -f "$here/reactions.awk" "$directory/calculix.inp" "$directory/calculix.dat"
 # The same columns from torque.csv, whose row of the first time CalculiX has not.
 for surface in nurbs bilinear; do
   timed "debond_$surface" "$debond" "$scene" "${sets[@]}" --set "Output/Directory=$directory/$surface" --force \
-    --set "Output/Fields every=none" --set "Bone/Contact surface=$surface" --set "Implant/Contact surface=$surface"
+    --set "Output/Fields every=none" --set "Output/Curve=Rotation z, Moment z" \
+    --set "Bone/Contact surface=$surface" --set "Implant/Contact surface=$surface"
   all_seconds+=" $seconds"
   awk -F, '
     FNR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }

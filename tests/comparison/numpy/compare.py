@@ -48,7 +48,7 @@ def run_debond(program, scene, changes):
     with tempfile.TemporaryDirectory() as directory:
         result = os.path.join(directory, 'results')
         command = [program, '--threads', '1', scene]
-        for change in changes + ['Output/Directory=' + result, 'Output/Fields every=none']:
+        for change in changes + ['Output/Directory=' + result, 'Output/Fields every=none', 'Output/Curve=Rotation z, Moment z']:
             command += ['--set', change]
         run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if run.returncode:

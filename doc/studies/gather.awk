@@ -53,7 +53,7 @@ FNR == 1 {
   closed = value("Model") != "finite elements"
   tier = closed ? value("Model") : splines ? "splines" : quadratic ? "quadratic" : value("Bone / Material")
   split(value("Bone / Cells"), cells, ", "); split(value("Implant / Cells"), implant_cells, ", ")
-  mesh = closed ? "none" : !splines && !quadratic ? mesh_name[cells[1]] : value("Bone / Cells under implant") > 0 ? "graded to the rim" : "equal cells"
+  mesh = closed ? "none" : !splines && !quadratic ? mesh_name[cells[1]] : value("Bone / Cells under implant") + 0 > 0 ? "graded to the rim" : "equal cells"
   layers = closed ? "none" : cells[3] (value("Bone / Layer grading") == 1 ? " equal" : "")
   if (value("Load steps / Adaptive") == "true" && !closed) steps = "tol. " value("Load steps / Tolerance")
   else {
@@ -66,7 +66,7 @@ FNR == 1 {
   surface = value("Bone / Contact surface"); slave = value("Interface / Slave")
   # what differs from the usual choice
   label = tier
-  if (tier == "prescribed angles") label = label (value("Closed form / Linear limit angle") == 0.13 ? "; printed angles" : "; own angles")
+  if (tier == "prescribed angles") label = label (value("Closed form / Slip counts from angle") == 1.13 ? "; printed angles" : "; own angles")
   if (splines || quadratic) {
     label = label (value("Bone / Material") == "linear" ? "" : " " value("Bone / Material")) "; " cells[1] " x " cells[2] " x " cells[3] " / " \
       implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal cells" ? "" : " " mesh) \

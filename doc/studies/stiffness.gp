@@ -22,7 +22,7 @@ do for [format in "png svg"] {
     set rmargin at screen left + (k - 1) * (width + 0.005) + width
     set bmargin at screen 0.3; set tmargin at screen 0.89
     set title "ε = " . word(spoken, k) . (k == 5 ? " MPa/mm" : "") offset 0, -0.4
-    if (k == 1) { set ylabel "Largest torque error / {/:Italic T}_{max}"; set format y "10^{%L}" } else { unset ylabel; set format y "" }
+    if (k == 1) { set ylabel "Largest torque error / {/:Italic T}_{max}" offset 1; set format y "10^{%L}" } else { unset ylabel; set format y "" }
     if (k == 3) { set xlabel "Seconds of the run on one thread" } else { unset xlabel }
     if (k == 3) { set key at screen 0.5, 0.02 bottom center maxrows 2 samplen 2 width 2 } else { unset key }
     plot for [f=1:5] table using (strcol("stiffness") eq word(stiffnesses, k) && strcol("family") eq word(families, f) ? column("seconds") : NaN):"error" \

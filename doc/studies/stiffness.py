@@ -78,6 +78,7 @@ def gather():
         meshes.setdefault((family(row), cells), {})[row['Interface / Normal stiffness']] = (seconds, error)
     with open(RESULTS / 'stiffness.csv', 'w') as file:
         file.write('stiffness,family,cells,seconds,error\n')
+        lines.sort(key=lambda line: STIFFNESSES.index(line[0]))  # a line of the picture in rows that follow each other
         file.writelines('%s,%s,"%s",%.3g,%.3g\n' % line for line in lines)
     head = ['cells of bone / implant'] + ['%s MPa/mm' % eps for eps in STIFFNESSES]
     table = ['| %s |' % ' | '.join(head), '|%s' % (' --- |' * len(head))]

@@ -39,7 +39,7 @@ GALLERY = os.path.join(ROOT, "doc", "gallery")
 FACTS = os.path.join(GALLERY, "scenes.csv")
 FACT_NAMES = ["scene", "seconds", "ended", "curves", "map", "note"]
 # what other scenes include or compare with, and the scene that a table of specimens fills in
-NO_SCENES = re.compile(r"(_scenes?|_reference|/template)\.prm$")
+NO_SCENES = re.compile(r"(_scenes?|_reference|/template|prm/coin)\.prm$")
 FOLDERS = {  # in this order
     "prm": "First scenes", "prm/tutorial": "Tutorial", "prm/paper": "The paper", "prm/adhesion": "Bonds with strength in tension",
     "prm/shapes": "Shapes", "prm/heterogeneous": "Bone that varies", "prm/calibrate": "Fits", "prm/studies": "Studies",

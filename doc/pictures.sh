@@ -84,12 +84,12 @@ film() {
 bodies() {
   "$DEBOND" prm/coin_mode3.prm --force --set "Load steps/Times=0, 1" --set "Load steps/Steps=1" --set Output/Directory=output/mesh
   pvpython doc/paraview/bodies.py mesh output/mesh --width 1200 --output output/mesh.png
-  at_angles --set "Load steps/Times=0, 1, 1.05, 1.15" --set "Load steps/Steps=1, 2, 2" --set "Bone/Cells=40, 40, 10" \
+  at_angles --set "Load steps/Times=0, 1, 1.05, 1.2" --set "Load steps/Steps=1, 2, 2" --set "Bone/Cells=40, 40, 10" \
     --set "Implant/Cells=8, 8" --set Output/Directory=output/stress
-  pvpython doc/paraview/bodies.py stress output/stress --angles 0.5 1.5 --output output/stress.png
-  at_angles --set "Load steps/Times=0, 1, 1.1, 1.15, 1.25, 1.5" --set "Load steps/Steps=1, 2, 2, 2, 4" \
+  pvpython doc/paraview/bodies.py stress output/stress --angles 0.5 2 --output output/stress.png
+  at_angles --set "Load steps/Times=0, 1, 1.12, 1.2, 1.35, 1.7" --set "Load steps/Steps=1, 2, 2, 2, 4" \
     --set "Interface/Quadrature points=20" --set Output/Directory=output/front
-  pvpython doc/paraview/debonding_front.py output/front --field mu slip_mm --angles 1 1.5 2.5 5 --width 1200 --output output/front.png
+  pvpython doc/paraview/debonding_front.py output/front --field mu slip_mm --angles 1.2 2 3.5 7 --width 1200 --output output/front.png
   "$DEBOND" prm/adhesion/coin_peeled.prm --force --set "Load steps/Times=0, 0.05, 0.1, 0.2, 0.5" --set "Output/Fields every=1000000" \
     --set "Load steps/Steps=15, 15, 30, 45" --set "Bone/Cells=30, 30, 6" --set "Implant/Cells=8, 4" \
     --set Output/Directory=output/peeled --set Output/Console=quiet

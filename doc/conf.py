@@ -6,6 +6,7 @@ linked from the pages for developers.
 """
 
 import glob
+import html
 import os
 import re
 import shutil
@@ -108,6 +109,18 @@ def link_sources(app, doctree, page):
                 name.replace_self(nodes.reference("", "", name.deepcopy(), refuri=to, internal=True))
 
 
+def break_code(app, doctree, page):
+    """In tables, names may go on in the next line behind a part: columns are less wide."""
+    if app.builder.format != "html":
+        return
+    for entry in doctree.findall(nodes.entry):
+        for code in list(entry.findall(nodes.literal)):
+            words = [re.sub(r"(/|_|::|(?<=[a-z])(?=[A-Z]))(?=\w)", "\\1\0", word) for word in code.astext().split(" ")]
+            text = " ".join(f'<span class="pre">{html.escape(word)}</span>' for word in words)
+            text = text.replace("\0", '</span><wbr><span class="pre">')
+            code.replace_self(nodes.raw("", f'<code class="docutils literal notranslate">{text}</code>', format="html"))
+
+
 def copy_parts(app, exception):
     if exception or app.builder.format != "html":
         return
@@ -150,5 +163,6 @@ def setup(app):
     app.connect("doctree-read", add_github_anchors)
     app.connect("doctree-read", keep_environments)
     app.connect("doctree-resolved", link_sources)
+    app.connect("doctree-resolved", break_code)
     app.connect("build-finished", copy_parts)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,10 +1,12 @@
 """The site: cmake --build build/release --target site. Made by Sphinx with MyST from the Markdown of this directory.
 
 What a page needs is in the site, so that it can be read from its files, without a network. Environment: DEBOND_VERSION,
-and DEBOND_API, the directory of the pages of the source (target documentation), which are copied if they are there.
+and DEBOND_API, the directory of the pages of the source (target documentation), which are copied if they are there, and
+linked from the pages for developers.
 """
 
 import glob
+import html
 import os
 import re
 import shutil
@@ -88,6 +90,37 @@ def keep_environments(app, doctree):
             block["nowrap"] = True
 
 
+def source_page(name):
+    """The page of a source file, as Doxygen calls it, below developers; nothing if there is none."""
+    if name == "developers/api/index.html":
+        return "api/index.html"
+    file = os.path.basename(name).replace("_", "__").replace(".", "_8") + "_source.html"
+    return f"api/{file}" if os.path.exists(os.path.join(API, file)) else ""
+
+
+def link_sources(app, doctree, page):
+    """In the pages for developers, names of source files lead to the pages of the source, if these were made."""
+    if not html_context["api"] or app.builder.format != "html" or not page.startswith("developers/"):
+        return
+    for name in list(doctree.findall(nodes.literal)):
+        if re.fullmatch(r"[\w/]+\.(h|cc|html)", name.astext()) and not isinstance(name.parent, nodes.reference):
+            to = source_page(name.astext())
+            if to:
+                name.replace_self(nodes.reference("", "", name.deepcopy(), refuri=to, internal=True))
+
+
+def break_code(app, doctree, page):
+    """In tables, names may go on in the next line behind a part: columns are less wide."""
+    if app.builder.format != "html":
+        return
+    for entry in doctree.findall(nodes.entry):
+        for code in list(entry.findall(nodes.literal)):
+            words = [re.sub(r"(/|_|::|(?<=[a-z])(?=[A-Z]))(?=\w)", "\\1\0", word) for word in code.astext().split(" ")]
+            text = " ".join(f'<span class="pre">{html.escape(word)}</span>' for word in words)
+            text = text.replace("\0", '</span><wbr><span class="pre">')
+            code.replace_self(nodes.raw("", f'<code class="docutils literal notranslate">{text}</code>', format="html"))
+
+
 def copy_parts(app, exception):
     if exception or app.builder.format != "html":
         return
@@ -116,15 +149,20 @@ def copy_parts(app, exception):
     if html_context["api"]:
         api = os.path.join(app.outdir, "developers", "api")
         shutil.copytree(API, api, dirs_exist_ok=True)
-        for path in glob.glob(os.path.join(api, "**", "*.html"), recursive=True):
+        paths = glob.glob(os.path.join(api, "**", "*.html"), recursive=True) + [os.path.join(api, "menudata.js")]
+        for path in filter(os.path.exists, paths):
             with open(path, encoding="utf-8") as file:
                 page = file.read()
+            page = page.replace(f'src="{MATHJAX}/', f'src="{os.path.relpath(to, os.path.dirname(path))}/')
+            page = page.replace('"../site/', '"../../')  # they were made beside the site
             with open(path, "w", encoding="utf-8") as file:
-                file.write(page.replace(f'src="{MATHJAX}/', f'src="{os.path.relpath(to, os.path.dirname(path))}/'))
+                file.write(page)
 
 
 def setup(app):
     app.connect("doctree-read", add_github_anchors)
     app.connect("doctree-read", keep_environments)
+    app.connect("doctree-resolved", link_sources)
+    app.connect("doctree-resolved", break_code)
     app.connect("build-finished", copy_parts)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -90,7 +90,14 @@ def sentences_of(scene, at_most=2, characters=300):
         told += "."
     told = re.sub(r"`([^`']*)'", r"'\1'", told)
     told = re.sub(r"([*<>$\[\]])", r"\\\1", told)
-    return re.sub(r"(?<![\w/`])((?:prm|doc|tests|source)/[\w/.]*\w)", r"`\1`", told)
+    told = re.sub(r"\bdoc/([\w/]+\.md)", link_to_page, told)
+    return re.sub(r"(?<![\w/`.])((?:prm|doc|tests|source)/[\w/.]*\w)", r"`\1`", told)
+
+
+def link_to_page(match):
+    """The title of a page that a scene names, as a link."""
+    with open(os.path.join(ROOT, "doc", match[1]), encoding="utf-8") as file:
+        return f"[{file.readline()[1:].strip()}](../{match[1]})"
 
 
 def table_of(path):

@@ -1264,6 +1264,11 @@ def anchor(heading):
     return re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-')
 
 
+def link_to_page(match):
+    """(doc/SECTION/PAGE.md) of a text with the title of the page."""
+    return '([%s](../%s))' % (re.search('^# (.*)', text_of('doc/' + match[1]), re.M)[1], match[1])
+
+
 def entry(default, allowed, meaning, links):
     """The list below the heading of an entry: code for names, links to other entries that are named in full (`Output / Curve'),
     the unit apart, no signs that Markdown would take for its own."""
@@ -1271,7 +1276,7 @@ def entry(default, allowed, meaning, links):
 
     def text_with_links(text):
         parts = re.split(r'(?<!/ )\b(%s)\b(?! /)' % '|'.join(map(re.escape, names)), text)
-        parts[::2] = [re.sub(r'\(doc/([\w/]+\.md)\)', r'([\1](../\1))', re.sub(r'([\\*<>])', r'\\\1', part)) for part in parts[::2]]
+        parts[::2] = [re.sub(r'\(doc/([\w/]+\.md)\)', link_to_page, re.sub(r'([\\*<>])', r'\\\1', part)) for part in parts[::2]]
         parts[1::2] = ['[%s](%s)' % (name, links[name]) for name in parts[1::2]]
         return ''.join(parts)
 

@@ -129,7 +129,7 @@ namespace Debond
 
 
     /**
-     * Finite strains, Eq. (1). The condensed stiffness is an approximate
+     * Finite strains, Eq.\ (1). The condensed stiffness is an approximate
      * inverse of its bulk and the internal forces are the true ones: the
      * iteration of the whole system converges to the exact nonlinear solution,
      * and contracts about the strain until the bulk is linearised anew.

@@ -13,7 +13,7 @@ namespace Debond
   {
     /**
      * Tensor product of two sets of univariate B-splines, first index fastest,
-     * and, where there are weights, Eq. (34) of the paper: R_A = w_A N_A / W
+     * and, where there are weights, Eq.\ (34) of the paper: R_A = w_A N_A / W
      * with W = sum_B w_B N_B. The derivatives follow from those of R_A W = w_A
      * N_A. The degree is a template argument for the loops to be unrolled.
      */

@@ -12,7 +12,7 @@ namespace Debond
 {
   namespace
   {
-    /** Eq. (13): s is 1 up to a_s, 0 from (1 + 2 b_s) a_s on, half a sine
+    /** Eq.\ (13): s is 1 up to a_s, 0 from (1 + 2 b_s) a_s on, half a sine
      *  between. With mu_ub = mu_b it is Coulomb's law. The defaults are those
      *  of data set 1 with mu_b = 0.4: a_s = 0.022 mm and b_s = 0.74, so that a
      *  point is debonded once it has slid (1 + 2 b_s) a_s = 54.6 um. */

@@ -57,8 +57,8 @@ namespace Debond
 
 
     /** Why friction at the end of the curve does not tell what the bond has
-     *  taken of E_deb, Eq. (20); empty: it does. @p theta_full_deg: what E_fric
-     * is counted from; NaN if the torque is largest at the end. */
+     *  taken of E_deb, Eq.\ (20); empty: it does. @p theta_full_deg: what
+     * E_fric is counted from; NaN if the torque is largest at the end. */
     std::string
     why_no_adhesion(const Rows          &rows,
                     const Rotation      &rotation,
@@ -114,7 +114,7 @@ namespace Debond
 
 
 
-    /** The energies of Eqs. (20) and (21) [N mm]. */
+    /** The energies of Eqs.\ (20) and (21) [N mm]. */
     struct Energies
     {
       double E_deb = 0, E_fric = 0;

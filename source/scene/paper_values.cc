@@ -1,5 +1,6 @@
 #include <debond/input/entry_table.h>
 #include <debond/scene/scene.h>
+#include <debond/shapes/body_geometry.h>
 
 #include <algorithm>
 #include <map>
@@ -19,11 +20,11 @@ namespace Debond
         if (is_read)
           names.push_back(name);
       };
-      const BodyShape shape = scene.implant.shape;
-      const bool      is_round =
-        shape != BodyShape::block && shape != BodyShape::file;
-      add(is_round, "Implant / Radius");
-      add(is_round, "Implant / Height");
+      const std::vector<std::string> sizes = scene.implant.geometry().entries();
+      for (const std::string &size :
+           {std::string("Radius"), std::string("Height")})
+        add(std::find(sizes.begin(), sizes.end(), size) != sizes.end(),
+            "Implant / " + size);
       add(scene.bone.shape == BodyShape::block, "Bone / Size");
       for (const auto &[body, name] : {std::pair(&scene.bone, "Bone"),
                                        std::pair(&scene.implant, "Implant")})

@@ -327,7 +327,7 @@ namespace Debond
    *
    *   x = sum_A N_A(xi,eta) l_0(zeta) x_A + sum_a phi_a(xi,eta,zeta) x_a,
    *
-   * N_A those of the NURBS by Bezier extraction (Eqs. 34, 35 of the paper),
+   * N_A those of the NURBS by Bezier extraction (Eqs.\ 34, 35 of the paper),
    * phi_a those of FE_Q whose nodes are not on the contact face, l_0 that of
    * FE_Q across which is 1 there. Or, with splines M_k of the depth, in all
    * layers

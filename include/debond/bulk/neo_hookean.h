@@ -8,7 +8,7 @@
 namespace Debond
 {
   /**
-   * Neo-Hookean material of Eqs. (1) and (2) of the paper in total Lagrangian
+   * Neo-Hookean material of Eqs.\ (1) and (2) of the paper in total Lagrangian
    * form, W = G/2 (tr C - 3) - G ln J + Lambda/2 (ln J)^2.
    *
    * Everything is a function of the displacement gradient H = F - I, never of
@@ -21,7 +21,7 @@ namespace Debond
     double G      = 0; ///< shear modulus [MPa]
     double Lambda = 0; ///< first Lame parameter [MPa]
 
-    /** Eq. (2). @p young_modulus [MPa], @p poisson_ratio in (-1, 0.5). */
+    /** Eq.\ (2). @p young_modulus [MPa], @p poisson_ratio in (-1, 0.5). */
     static NeoHookean
     from_young(double young_modulus, double poisson_ratio)
     {

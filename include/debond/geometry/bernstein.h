@@ -86,7 +86,7 @@ namespace Debond
     unsigned int              p = 0;
     std::vector<double>       knot_values, breaks;
     std::vector<unsigned int> first_function;
-    /** C of Eq. (35): B-splines on the span = C * Bernstein, in the upper left
+    /** C of Eq.\ (35): B-splines on the span = C * Bernstein, in the upper left
      *  (p+1) x (p+1) block; zero elsewhere. */
     std::vector<Eigen::Matrix3d> extraction;
   };

@@ -6,7 +6,7 @@
 namespace Debond
 {
   /**
-   * Laws of a bond that breaks as a point slides: Eq. (11),
+   * Laws of a bond that breaks as a point slides: Eq.\ (11),
    *
    *   mu = phi mu_ub + (1 - phi) mu_b,   phi = phi_0 s(g_s),
    *
@@ -106,7 +106,7 @@ namespace Debond
 
 
 
-  /** Eq. (13) with its four parameters. */
+  /** Eq.\ (13) with its four parameters. */
   struct ModifiedCoulombParameters
   {
     double mu_broken         = 0.40;  ///< mu_b

@@ -19,7 +19,7 @@ namespace Debond
   {
     static constexpr double far = 1e100; ///< [mm]
 
-    /** Accumulated sliding distance g_s [mm], Eq. (12). */
+    /** Accumulated sliding distance g_s [mm], Eq.\ (12). */
     double slip = 0;
     /** g_n [mm] where the point is carried, else far away. */
     double normal_gap = far;
@@ -68,7 +68,7 @@ namespace Debond
    *
    * All functions are pure: an object never changes, a trial may be thrown
    * away, and points may be updated in any order. How to add a law:
-   * CONTRIBUTING.md.
+   * doc/developers/law.md.
    */
   class FrictionLaw
   {

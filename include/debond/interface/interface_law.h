@@ -136,7 +136,7 @@ namespace Debond
    *
    * All laws push with a stiffness eps_n where the faces are pressed together,
    * and rub with a friction law. All functions are pure. How to add a law:
-   * CONTRIBUTING.md.
+   * doc/developers/law.md.
    */
   class InterfaceLaw : public InterfaceLawParts
   {

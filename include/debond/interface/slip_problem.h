@@ -11,7 +11,7 @@
 
 namespace Debond
 {
-  /** The unit normal of the master that points to the slave, Eq. (24), and how
+  /** The unit normal of the master that points to the slave, Eq.\ (24), and how
    *  it turns. Pressure, the tangent plane and the direction of slip all depend
    *  on it, so that the tangent needs its derivatives; without them Newton's
    *  method would not be quadratic on curved or tilted faces. */
@@ -69,7 +69,7 @@ namespace Debond
 
   /**
    * A sliding point with its xi_hat at a trial place: traction, the residual h
-   * of Eqs. (29) and (30), and the derivatives of both.
+   * of Eqs.\ (29) and (30), and the derivatives of both.
    *
    * An object is one evaluation: it is made at a trial place and not changed
    * after that. Value and derivative are so found from the same numbers, and

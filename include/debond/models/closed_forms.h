@@ -26,7 +26,7 @@ namespace Debond
       double radius   = 0; ///< R [mm]
       double pressure = 0; ///< p [MPa], the same everywhere
       /** Of the tangential traction per path of points that stick [MPa/mm]:
-       *  eps_t, or lambda of Eq. (39). */
+       *  eps_t, or lambda of Eq.\ (39). */
       double stiffness = 0;
       double phi_0     = 1; ///< initial bonding inside bonded_radius
       /** Points further out are not bonded at the start [mm]. */
@@ -70,7 +70,7 @@ namespace Debond
     virtual State
     state(double theta) const;
 
-    /** Torque T [N mm] at the angle @p theta [rad]: Eq. (37). */
+    /** Torque T [N mm] at the angle @p theta [rad]: Eq.\ (37). */
     double
     torque(const double theta) const
     {
@@ -241,11 +241,11 @@ namespace Debond
 
 
   /**
-   * The analytical model of the paper with the modified Coulomb law, Eqs. (17),
-   * (18), (37), (49): c(theta) = R theta_lin / theta; inside, the traction is
-   * t_max r / c with t_max = mu(0) p; outside it is mu(g_s) p with g_s = 0
-   * while theta < theta_slide and g_s = r (theta - theta_slide + theta_lin)
-   * from then on.
+   * The analytical model of the paper with the modified Coulomb law,
+   * Eqs.\ (17), (18), (37), (49): c(theta) = R theta_lin / theta; inside, the
+   * traction is t_max r / c with t_max = mu(0) p; outside it is mu(g_s) p with
+   * g_s = 0 while theta < theta_slide and g_s = r (theta - theta_slide +
+   * theta_lin) from then on.
    *
    * The sliding distance of Eq. (49) is not the motion that the traction works
    * on, so this model does not balance energy.

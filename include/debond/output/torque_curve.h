@@ -186,10 +186,10 @@ namespace Debond
   /** What the measures need to know besides the rows. */
   struct CurveSettings
   {
-    /** Area that w_adh refers to [mm^2]: pi R^2 for a coin, Eq. (21), that of
+    /** Area that w_adh refers to [mm^2]: pi R^2 for a coin, Eq.\ (21), that of
      * the sphere for a cap. */
     double contact_area_mm2 = std::numeric_limits<double>::quiet_NaN();
-    /** Area mean of phi_0 over the contact face, Eq. (21). */
+    /** Area mean of phi_0 over the contact face, Eq.\ (21). */
     double mean_phi_0 = 1;
     /** Whether there is a bond to break; else nothing is said of adhesion. */
     bool is_bonded = true;

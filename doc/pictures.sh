@@ -98,7 +98,7 @@ bodies() {
   publish output/mesh output/stress output/front output/peeled
   "$DEBOND" prm/coin_mode3_spline.prm --force --set Output/Directory=output/opened
   pvpython doc/paraview/open_results.py output/opened --pictures output/opened/pictures --width 1400
-  cp output/opened/pictures/view-0008.png doc/images/opened.png
+  cp output/opened/pictures/view-0007.png doc/images/opened.png
 }
 
 make_pictures() {

@@ -38,7 +38,7 @@ def check_numbers(numbers):
     # 53.80: tests/comparison/numpy, with two layers of cells
     check("T_max of the first curve", abs(numbers["T_max_Nmm"] / 53.80 - 1) < 1e-2, numbers["T_max_Nmm"])
     check("half of the face is bonded at first", abs(numbers["phi_pressed"] - 0.5) < 1e-6, numbers["phi_pressed"])
-    check("and less at 1 degree", 0 < numbers["phi_turned"] < numbers["phi_pressed"], numbers["phi_turned"])
+    check("and less at 2 degrees", 0 < numbers["phi_turned"] < numbers["phi_pressed"], numbers["phi_turned"])
     few, many = numbers["peaks"]
     check("each implant with more bond is stronger", max(few) < min(many), max(few), min(many))
     check("patches matter", len(set(few)) == len(few) and max(few) - min(few) > 1e-3 * max(few), max(few) - min(few))
@@ -65,7 +65,7 @@ def check_numbers(numbers):
     check("torque over force is the same at the end", abs(relaxing / constant - 1) < 0.02, constant, relaxing)
     of_eq_13, exponential = numbers["D_adh_Nmm"]
     # of the whole face: (mu_ub - mu_b) (1 + b_s) a_s times the force, less what is left in the middle
-    whole = (0.58 - 0.4) * 1.74 * 0.022 * numbers["force_N"]
+    whole = (0.586 - 0.4) * 1.74 * 0.042 * numbers["force_N"]
     check("the laws take the energy of the bond", 0.96 * whole < exponential < of_eq_13 < whole, of_eq_13, exponential, whole)
     check("the exponential one has a lower peak", numbers["T_max_exponential"] < 0.98 * numbers["T_max_Nmm"],
           numbers["T_max_exponential"])

@@ -34,6 +34,8 @@ MAIN, REFERENCE = 'prm/coin_mode3.prm', 'Output/Reference curve=prm/studies/data
 STAND_IN = 'prm/paper/data/closed_form_b_data_set_%d.csv'
 LINEAR = ('Bone/Material=linear', 'Implant/Material=linear')
 LAYERED = ('Bone/Layer grading=1.5', 'Implant/Layer grading=1.5')
+OTHER_INTERFACE = ('Interface/Normal stiffness=585', 'Interface/Tangential stiffness=auto', 'Interface/Friction coefficient unbroken=0.58',
+                   'Interface/Characteristic slip distance=0.022')
 THREE_PHASES = ('Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10')
 ADAPTIVE = ('Load steps/Steps=1, 10', 'Load steps/Adaptive=true')
 NAMES, options = {}, None
@@ -910,7 +912,7 @@ def adaptive_scenes():
     press, twice = '0.0049 * min(t, 1)', 'min(max(t - 1, 0), 1)'
     mesh = ('Bone/Cells=12, 12, 3', 'Implant/Cells=4, 2') + LINEAR + LAYERED
     rigid = ('Bone/Material=rigid', 'Implant/Material=rigid', 'Implant/Cells=12, 2')
-    turning = {'Translation x': '0.02 * ' + twice, 'Rotation z': '2 * max(t - 2, 0)'}
+    turning = {'Translation x': '0.018 * ' + twice, 'Rotation z': '2 * max(t - 2, 0)'}
     zigzag = 'min(max(t - 1, 0), 1) - 2 * min(max(t - 2, 0), 1) + 2 * min(max(t - 3, 0), 1)'
     scenes = [
         ('twist', 1, {'Rotation z': '10 * max(t - 1, 0)'}, mesh),
@@ -1008,6 +1010,7 @@ TILTED = ('Chuck/Rotation x/Value=0.1 * min(t, 1)',)
 def errors_elsewhere(scenes, fine, choices):
     lines = []
     for name, changes in scenes:
+        changes = OTHER_INTERFACE + changes
         reference = run(MAIN, *fine, *LINEAR, *changes)['curve']
         line = [name]
         for _, choice in choices:
@@ -1028,7 +1031,7 @@ def splines_elsewhere():
                ('trilinear 60 x 60 x 12 / 12 x 12 x 12', with_mesh('60, 60, 12', '12, 12', 1.5, 'trilinear', '2e-4')),
                ('splines 60 x 60 x 8 / 12 x 12 x 6', with_mesh('60, 60, 8', '12, 6', 2, 'spline', '2e-4')))
     return errors_elsewhere((
-        ('main scene', ()),
+        ('585 MPa/mm', ()),
         ('1800 MPa/mm', isotropic(1800)),
         ('6000 MPa/mm', isotropic(6000)),
         ("Poisson's ratio of the bone 0.45", ('Bone/Poisson ratio=0.45',)),
@@ -1049,7 +1052,7 @@ def stiff_elsewhere():
                ('fitted 16, 6, 10, 9 / 12, 5, 5', with_mesh('fitted 16, 6, 10, 9', 'fitted 12, 5, 5', 1, 'spline', '3e-4')))
     stiff = isotropic(1e5)
     return errors_elsewhere((
-        ('coin_stiff', stiff),
+        ('1e5 MPa/mm', stiff),
         ('Neo-Hookean', stiff + ('Bone/Material=neo-hookean', 'Implant/Material=neo-hookean')),
         ('a force instead of a depth', stiff + ('Chuck/Press/Control=force', 'Chuck/Press/Value=600 * min(t, 1)')),
         ('bonded in a disk, f = 0.55', stiff + BONDED_IN_A_DISK),
@@ -1158,7 +1161,7 @@ def multigrid_on_splines():
     return small(max(abs(a - b) for a, b in zip(*curves)) / max(curves[0]))
 
 
-CURVE = ('Output/Fields every=none', 'Implant/Cells=12, 4', 'Load steps/Tolerance=1e-3') + LINEAR + LAYERED + ADAPTIVE
+CURVE = ('Output/Fields every=none', 'Implant/Cells=12, 4', 'Load steps/Tolerance=1e-3') + LINEAR + LAYERED + ADAPTIVE + OTHER_INTERFACE
 VARIES = ('Bone/Young modulus=18000 * exp(x / 10)',)
 
 

@@ -29,9 +29,11 @@ MOMENTS = ['chuck_M%s_Nmm' % k for k in 'xyz']
 PRESS = '0.0049 * min(t, 1)'
 SHEAR = '0.02 * min(max(t - 1, 0), 1)'
 SHEAR_THEN_TWIST = {'Translation x': SHEAR, 'Rotation z': '2 * max(t - 2, 0)'}
-COARSE = {'Bone/Cells': '12, 12, 3', 'Implant/Cells': '4, 2', 'Bone/Layer grading': '1.5', 'Implant/Layer grading': '1.5',
+STIFFNESS = {'Interface/Normal stiffness': '585', 'Interface/Tangential stiffness': 'auto'}  # that of the scenes for CalculiX
+BOND = {**STIFFNESS, 'Interface/Friction coefficient unbroken': '0.58', 'Interface/Characteristic slip distance': '0.022'}
+COARSE = {**BOND, 'Bone/Cells': '12, 12, 3', 'Implant/Cells': '4, 2', 'Bone/Layer grading': '1.5', 'Implant/Layer grading': '1.5',
           'Bone/Material': 'linear', 'Implant/Material': 'linear'}
-RIGID = {'Bone/Material': 'rigid', 'Implant/Material': 'rigid', 'Implant/Cells': '12, 2'}
+RIGID = {**BOND, 'Bone/Material': 'rigid', 'Implant/Material': 'rigid', 'Implant/Cells': '12, 2'}
 # label, phases after the first one, motion, entries
 CASES = [
     ('rigid bodies: shear then twist', 2, SHEAR_THEN_TWIST, RIGID),
@@ -50,7 +52,7 @@ STEPS = [10, 20, 50, 100, 200]
 REFERENCE_STEPS = 2000
 
 # the same cells for CalculiX; a constant coefficient is what it knows
-CODES = {'Bone/Cells': '15, 15, 2', 'Implant/Cells': '6, 2', 'Bone/Material': 'linear', 'Implant/Material': 'linear',
+CODES = {**STIFFNESS, 'Bone/Cells': '15, 15, 2', 'Implant/Cells': '6, 2', 'Bone/Material': 'linear', 'Implant/Material': 'linear',
          'Interface/Friction law': 'coulomb', 'Interface/Friction coefficient': '0.58'}
 CODE_STEPS = [5, 10, 20, 40, 80]
 CODE_REFERENCE_STEPS = 320

@@ -23,8 +23,8 @@ main()
   scene.implant.young_modulus = 113000; // MPa, titanium
 
   // Elastic and frictional contact, with the law of Eqs. (11) to (13).
-  scene.interface.normal_penalty     = 622; // MPa/mm
-  scene.interface.tangential_penalty = 305;
+  scene.interface.normal_penalty     = 585; // MPa/mm
+  scene.interface.tangential_penalty = 585;
 
   // Pressed in by 4.9 um until t = 1, then turned by 10 degrees until t = 2.
   scene.chuck.component[2].function = [](const double t) {

@@ -8,7 +8,7 @@ cmake --install "$build" --prefix "$PWD/installed" > log
 ls installed/bin installed/share/man/man1 | grep debond
 cp -r installed/share/debond/prm .
 installed/bin/debond prm/coin_mode3_fast.prm > log
-grep -o "Largest torque 50" log
+grep -o "Largest torque 53" log
 ls output/coin_fast/report.html
 grep -c "^# " installed/share/doc/debond/README.md
 (cd installed/share/doc/debond && ls doc/first_steps.sh doc/tutorial/index.md prm/coin_mode3.prm python/tutorial.ipynb)

@@ -24,7 +24,7 @@ if [[ -z $example ]]; then
   echo "libraries loaded for nothing: $(ldd -u root/usr/bin/debond | grep -c /)"
   ln -s root/usr/share/debond/prm
   root/usr/bin/debond prm/coin_mode3_fast.prm > log
-  grep -o "Largest torque 50" log
+  grep -o "Largest torque 53" log
   exit
 fi
 

@@ -180,8 +180,9 @@ def check_pull():
 def check_run():
     """The program computes the same measures of the same curves."""
     curve = os.path.join(scenes, "paper", "data", "closed_form_b_data_set_1.csv")
-    subprocess.run([debond, os.path.join(scenes, "coin_mode3_fast.prm"), "--set", "Output/Directory=coin", "--set",
-                    "Output/Reference curve=" + curve, "--set", "Output/Fields every=none"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([debond, os.path.join(scenes, "coin_mode3_fast.prm"), "--set", "Output/Directory=" + os.path.abspath("coin"),
+                    "--set", "Output/Reference curve=" + curve, "--set", "Output/Fields every=none"],
+                   check=True, stdout=subprocess.DEVNULL, cwd=os.path.join(scenes, ".."))  # where included scenes are found
     with open("coin/summary.json", encoding="utf-8") as file:
         summary = json.load(file)
     found = compare("coin", curve).runs[""]

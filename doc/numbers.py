@@ -910,9 +910,9 @@ def largest_error(reference, curve, groups):
 @numbers('minutes')
 def adaptive_scenes():
     press, twice = '0.0049 * min(t, 1)', 'min(max(t - 1, 0), 1)'
-    mesh = ('Bone/Cells=12, 12, 3', 'Implant/Cells=4, 2') + LINEAR + LAYERED
-    rigid = ('Bone/Material=rigid', 'Implant/Material=rigid', 'Implant/Cells=12, 2')
-    turning = {'Translation x': '0.018 * ' + twice, 'Rotation z': '2 * max(t - 2, 0)'}
+    mesh = OTHER_INTERFACE + ('Bone/Cells=12, 12, 3', 'Implant/Cells=4, 2') + LINEAR + LAYERED
+    rigid = OTHER_INTERFACE + ('Bone/Material=rigid', 'Implant/Material=rigid', 'Implant/Cells=12, 2')
+    turning = {'Translation x': '0.02 * ' + twice, 'Rotation z': '2 * max(t - 2, 0)'}
     zigzag = 'min(max(t - 1, 0), 1) - 2 * min(max(t - 2, 0), 1) + 2 * min(max(t - 3, 0), 1)'
     scenes = [
         ('twist', 1, {'Rotation z': '10 * max(t - 1, 0)'}, mesh),
@@ -936,7 +936,7 @@ def adaptive_scenes():
                                                       'Rotation z': '0.3 * max(t - 1, 0)'}, mesh),
         ('a cap that rocks about x and y', 1, {'Press': '0.02 * min(t, 1)', 'Rotation x': '0.5 * sin(2 * pi * max(t - 1, 0))',
                                                'Rotation y': '0.3 * sin(4 * pi * max(t - 1, 0))'}, mesh + ('Implant/Shape=cap',)),
-        ('under a moment, to and fro: the angle', 2, {'Rotation z': '52.8 * (%s - 1.8 * max(t - 2, 0))' % twice},
+        ('under a moment, to and fro: the angle', 2, {'Rotation z': '49.5 * (%s - 1.8 * max(t - 2, 0))' % twice},
          mesh + ('Chuck/Rotation z/Control=moment',))]
     lines = []
     for name, phases, motion, changes in scenes:

@@ -64,9 +64,9 @@ def check_numbers(numbers):
     constant, relaxing = numbers["torque_over_force"]
     check("torque over force is the same at the end", abs(relaxing / constant - 1) < 0.02, constant, relaxing)
     of_eq_13, exponential = numbers["D_adh_Nmm"]
-    # of the whole face: (mu_ub - mu_b) (1 + b_s) a_s times the force, less what is left in the middle
+    # of the whole face: (mu_ub - mu_b) (1 + b_s) a_s times the force, less what is left in the middle, 5.5 % of the exponential bond
     whole = (0.586 - 0.4) * 1.74 * 0.042 * numbers["force_N"]
-    check("the laws take the energy of the bond", 0.96 * whole < exponential < of_eq_13 < whole, of_eq_13, exponential, whole)
+    check("the laws take the energy of the bond", 0.93 * whole < exponential < of_eq_13 < whole, of_eq_13, exponential, whole)
     check("the exponential one has a lower peak", numbers["T_max_exponential"] < 0.98 * numbers["T_max_Nmm"],
           numbers["T_max_exponential"])
 

@@ -478,8 +478,9 @@ namespace Debond
         {"Output / Observed bonding", is_bonded, "laws with a bond"}};
       for (const SceneEntry &entry : scene.changed_entries)
         {
-          // What an included file sets is for several scenes.
-          if (entry.place != "--set" &&
+          // What an included file sets is for several scenes. Only what stands
+          // in a file has a line as its place.
+          if (entry.place.find(':') != std::string::npos &&
               entry.place.rfind(scene.name + ":", 0) != 0)
             continue;
           const std::string name = entry.full_name();

@@ -261,7 +261,24 @@ def check_mistakes():
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 1 - slip if slip < 0.0875 else 1, 0.1)))
 
 
+def check_warnings():
+    """Entries without an effect are said of a script and of a scene, not of a file that it includes."""
+    print("Entries without effect")
+    with open("base.prm", "w", encoding="utf-8") as file:
+        file.write(coin + "subsection Interface\n  set Transition factor = 0.5\nend\n")
+    with open("rubs_not.prm", "w", encoding="utf-8") as file:
+        file.write("include base.prm\nsubsection Interface\n  set Friction law = frictionless\nend\n")
+    without_effect = [text for text in debond.Scene("rubs_not.prm").warnings if "no effect" in text]
+    check("  none of the included file", not without_effect)
+    for scene in (debond.Scene("rubs_not.prm", {"Interface/Characteristic slip distance": 0.03}),
+                  debond.Scene(text=coin + "subsection Interface\n  set Friction law = frictionless\n  "
+                                           "set Characteristic slip distance = 0.03\nend\n")):
+        without_effect = [text for text in scene.warnings if "Characteristic slip distance = 0.03 has no effect" in text]
+        check("  one of its own", len(without_effect) == 1)
+
+
 check_program()
+check_warnings()
 check_drive()
 check_law()
 check_more()

@@ -330,9 +330,9 @@ namespace Debond
 
 
   // Adaptive steps draw the curve with the rates at the ends of the steps,
-  // which cost one more solution each. A trial in the middle needs none. Where
-  // the tangent is singular, at a limit point, there are none; the step is then
-  // made smaller, and drawn straight in the end.
+  // which cost one more solution each. Where the tangent is singular, at a
+  // limit point, there are none; the step is then made smaller, and drawn
+  // straight in the end.
   //
   // Two halves of a method of second order are right to a quarter of what one
   // step is. Friction that depends on the speed is of first order: to a half.
@@ -340,7 +340,7 @@ namespace Debond
   Simulation::end_of_step(const Step &step)
   {
     StepState end = state();
-    if (scene.load_steps.draws_curve() && step.time == step.whole_time)
+    if (scene.load_steps.draws_curve())
       {
         rates              = coupled_system.rates();
         end.force_rates    = rates.forces;

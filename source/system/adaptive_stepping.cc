@@ -139,10 +139,8 @@ namespace Debond
   //
   //   p(s) = F_0 + s D + s (1 - s) ((1 - s) (h m_0 - D) - s (h m_1 - D)),
   //
-  // D = F_1 - F_0. In the first step of a phase m_0 is not known, and the
-  // parabola through both ends with the rate m_1 is taken. Else values and
-  // rates at three times determine a polynomial of degree five (four, if the
-  // first of them is where the phase began), which is
+  // D = F_1 - F_0. Values and rates at three times determine a polynomial of
+  // degree five (four, if the first of them is where the phase began), which is
   //
   //   p(s) + s^2 (1 - s)^2 (a + b (s + r)),
   //
@@ -154,13 +152,11 @@ namespace Debond
     const Node   last   = node_of(state);
     const Forces change = last.answers - current.answers,
                  end    = h * last.rates - change;
-    if (!has_previous)
-      return middle - (current.answers + 0.5 * change - 0.25 * end);
-    const Forces begin = h * current.rates - change;
-    const double r     = (current.time - previous.time) / h;
-    const double w     = std::pow(r * (1. + r), 2), // s^2 (1 - s)^2 at -r, and
-      dw               = -2. * r * (1. + r) * (1. + 2. * r); // its derivative
-    const Forces a     = (previous.answers - current.answers + r * change +
+    const Forces begin  = h * current.rates - change;
+    const double r      = (current.time - previous.time) / h;
+    const double w      = std::pow(r * (1. + r), 2), // s^2 (1 - s)^2 at -r, and
+      dw                = -2. * r * (1. + r) * (1. + 2. * r); // its derivative
+    const Forces a      = (previous.answers - current.answers + r * change +
                       r * (1. + r) * ((1. + r) * begin + r * end)) /
                      w;
     Forces b = Forces::Zero();
@@ -172,6 +168,29 @@ namespace Debond
         b = (h * previous.rates - slope - dw * a) / w;
       }
     return (a + (0.5 + r) * b) / 16.;
+  }
+
+
+
+  // The same in the first step of a phase, where m_0 is not known. What is
+  // drawn is the parabola through both ends with the rate m_1, whose rate in
+  // the middle is D. If value and rate are off there by d and m / h, then the
+  // quartic through all that is known is off by
+  //
+  //   4 s (1 - s)^2 (2 (m + 2 d) s - m).
+  //
+  // The parabola may cross the curve in the middle; hence also at s = 1/5,
+  // where the part of m is largest.
+  std::array<AdaptiveStepping::Forces, 2>
+  AdaptiveStepping::differences_of_parabola(const StepState &state) const
+  {
+    const double h      = target_time() - current.time;
+    const Node   last   = node_of(state);
+    const Forces change = last.answers - current.answers,
+                 d      = middle.answers - current.answers - 0.75 * change +
+                     0.25 * h * last.rates,
+                 m = h * middle.rates - change;
+    return {{d, 0.512 * (0.8 * d - 0.6 * m)}};
   }
 
 
@@ -241,16 +260,19 @@ namespace Debond
     const auto in_parts = [&](const Forces &difference) {
       return relative(difference, state, true) / tolerance;
     };
-    const Forces from_polynomial = difference(state);
-    if (!has_previous) // twice: the curve need not be a cubic
-      return {2. * in_parts(from_polynomial), 2. * in_parts(from_polynomial)};
+    if (!has_previous) // twice: the curve need not be a quartic
+      {
+        const auto [there, before] = differences_of_parabola(state);
+        const double error = 2. * std::max(in_parts(there), in_parts(before));
+        return {error, error};
+      }
     // A kink near the end of the step hardly moves the polynomial in its
     // middle, and shows in the rate. On a smooth curve with equal steps that
     // rate is off by h^3 F'''' / 2, and the cubic by h^4 F'''' / 384; half as
     // much is wanted.
     const double h = target_time() - current.time;
     const double smooth =
-      std::max(in_parts(from_polynomial),
+      std::max(in_parts(difference(state)),
                in_parts(h / 96. * (last.rates - expected_rates(h))));
     // Where the error is much more than the fourth power of the step would make
     // of that of the steps before, or that is not known, there may be a kink or
@@ -287,7 +309,7 @@ namespace Debond
   {
     if (step.time != step.whole_time)
       {
-        middle     = node_of(state).answers;
+        middle     = node_of(state);
         has_middle = true;
         return false;
       }

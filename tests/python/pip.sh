@@ -10,12 +10,11 @@ cp -r "$project"/{CMakeLists.txt,CITATION.cff,CHANGELOG.md,LICENSE,README.md,pyp
 cp -r "$project"/{cmake,doc,include,prm,python,source,tests} .
 "$python" -m venv --system-site-packages venv
 venv/bin/pip install --no-build-isolation . > pip.log 2>&1 || { tail -n 30 pip.log; exit 1; }
-cd /
 "$scratch/venv/bin/python" - "$scratch" <<'END'
 import sys
 import debond
 assert debond.__file__.startswith(sys.argv[1]), debond.__file__
-peak = debond.Scene(sys.argv[1] + "/prm/coin_mode3_fast.prm").run().rows["torque_Nmm"].max()
+peak = debond.Scene("prm/coin_mode3_fast.prm").run().rows["torque_Nmm"].max()
 assert 45 < peak < 55, peak
 print("the module that pip has compiled, version", debond.__version__, "works")
 END

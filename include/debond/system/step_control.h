@@ -5,6 +5,7 @@
 #include <debond/system/load_step_parameters.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -265,6 +266,8 @@ namespace Debond
     first_turn(double begin, double end) const;
     Forces
     difference(const StepState &state) const;
+    std::array<Forces, 2>
+    differences_of_parabola(const StepState &state) const;
     Forces
     answers(const Forces &forces, const Forces &positions) const;
     double
@@ -314,7 +317,7 @@ namespace Debond
     Node   previous;            ///< one step before
     bool   second      = false; ///< previous is where the phase began
     bool   is_resolved = true;  ///< the error was below the tolerance
-    Forces middle      = Forces::Zero();
+    Node   middle;              ///< of the first step of a phase
     /** Errors of the last two steps, if smooth, over the tolerance and the
      * fourth power of the step. */
     double bend = 0, bend_before = 0;

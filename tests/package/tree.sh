@@ -4,7 +4,7 @@
 # make_tree RELEASE: in the directory work, as $tree, until the script ends
 make_tree() {
   tree=$PWD/tree
-  trap 'umount "$tree/sys" "$tree/proc" "$tree/dev" 2> /dev/null; rm -rf --one-file-system "$tree"' EXIT
+  trap 'umount "$tree/sys" "$tree/proc" "$tree/dev" 2> /dev/null || true; rm -rf --one-file-system "$tree"' EXIT
   if ! debootstrap --variant=minbase "$1" "$tree" "${MIRROR:-http://deb.debian.org/debian}" > log 2>&1; then
     if grep -q "Failed getting release file" log; then echo "no mirror of Debian"; fi
     tail -n 5 log

@@ -253,6 +253,12 @@ class Fit:
         for j, unknown in enumerate(problem.unknowns.list):
             if not self.told.free[j] and self.is_told[j]:
                 self.warnings.append(f"{unknown.name} ends at one of its bounds: the best value may lie beyond")
+            elif self.is_told[j]:
+                ends = [bound for end, bound in ((self.lower[j], unknown.lower), (self.upper[j], unknown.upper))
+                        if bound != 0 and numpy.isclose(end, bound, 1e-6, 0)]
+                if ends:
+                    self.warnings.append(f"the 95 % interval of {unknown.name} ends at a bound of its search, {ends[0]:.5g}: that end is "
+                                         "no result")
         self.warnings += [intervals.text_of(direction, problem.unknowns) for direction in self.told.directions]
         named = " ".join(self.warnings)
         self.warnings += [f"the curves do not tell {name}: its interval is most of what is between its bounds"

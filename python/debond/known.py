@@ -27,7 +27,7 @@ def _unit_of(entry, values):
 
 
 def _changes(fit):
-    """(entry, value, unit, change in words, its new text) of what is taken as known."""
+    """(entry, value, unit, change in words, its new text) of what is taken as known. Small ones, as their effect is linearised."""
     problem = fit.problem
     experiment = problem.done[0]
     values, held = experiment.values, set().union(*(problem.unknowns.entries(e.number, fit.values) for e in problem.done))
@@ -36,21 +36,21 @@ def _changes(fit):
         text = given(values.get(entry, ""))
         if entry in held or not text or _is_zero(text):
             continue
-        changed = f"({text}) * 1.1" if "Chuck" in entry or entry.endswith("Interference") else repr(1.1 * float(text))
-        result.append((entry, text, _unit_of(entry, values), "+10 %", changed))
+        changed = f"({text}) * 1.01" if "Chuck" in entry or entry.endswith("Interference") else repr(1.01 * float(text))
+        result.append((entry, text, _unit_of(entry, values), "+1 %", changed))
     if _BONDING not in held and values.get(_BONDING) == "1":
-        result.append((_BONDING, "1", "", "-10 %", "0.9"))
+        result.append((_BONDING, "1", "", "-1 %", "0.99"))
     curve = fit._best.curve[problem.series[0].slice]
     torque = curve[numpy.argmax(abs(curve))]
     half = numpy.argmax(abs(curve) >= 0.5 * abs(torque))  # on the way up, where angles matter
-    angle = experiment.measured.over[half]
+    angle = 0.01 * experiment.measured.over[half]
     if experiment.over.is_angle and problem.series[0].column.is_torque and torque != 0:
-        for key, size in (("angle_offset", 0.1 * angle), ("slack", abs(0.1 * angle)), ("compliance", abs(0.2 * angle / torque)),
+        for key, size in (("angle_offset", angle), ("slack", abs(angle)), ("compliance", abs(2 * angle / torque)),
                           ("torque_offset", 0.01 * torque), ("drift", 0.01 * torque)):
             entry = "Calibration / " + RIG[key]
             if entry not in held:
                 unit, now = _debond.unit_of(entry), float(values[entry])
-                part = "1 % of the largest torque" if "orque" in entry else "10 % of the angle at half the largest torque"
+                part = "1 % of the largest torque" if "orque" in entry else "1 % of the angle at half the largest torque"
                 result.append((entry, values[entry], unit, f"+{size:.2g} {unit}, {part}", repr(now + float(size))))
     return result
 

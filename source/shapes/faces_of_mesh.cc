@@ -82,10 +82,8 @@ namespace Debond
     void
     interpolate(Eigen::Matrix3Xd &x, const FaceWeights &w)
     {
-      for (const auto &[first, middle, last] : {std::array{0, 1, 2},
-                                                std::array{6, 7, 8},
-                                                std::array{0, 3, 6},
-                                                std::array{2, 5, 8}})
+      constexpr int edges[][3] = {{0, 1, 2}, {6, 7, 8}, {0, 3, 6}, {2, 5, 8}};
+      for (const auto &[first, middle, last] : edges)
         x.col(middle) = ((1. + w[middle]) * x.col(middle) -
                          0.5 * (x.col(first) + x.col(last))) /
                         w[middle];

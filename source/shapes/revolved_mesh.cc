@@ -161,7 +161,7 @@ namespace Debond
       const bool is_inner = body.inner && cell[0] == 0,
                  is_outer = cell[0] == n[1] - 1, is_bottom = cell[2] == 0;
       const auto from_axis = [&] { // of its bottom
-        const Point middle = position({{0, int(2 * cell[0] + 1), 0, 0}});
+        const Point middle = position({{0, 2 * cell[0] + 1, 0, 0}});
         return std::hypot(middle[0], middle[1]);
       };
       if (is_bottom && from_axis() >= body.bottom_from)
@@ -173,14 +173,15 @@ namespace Debond
       if (is_outer)
         name(RevolvedBody::Part::outer, body.outer_name, {1, 3, 5, 7});
       // edges around of the contact face; its first corners, and so on
+      using corners = std::array<unsigned int, 2>;
       if (body.is_round &&
           (body.contact == RevolvedBody::Part::inner ? is_inner :
            body.contact == RevolvedBody::Part::outer ? is_outer :
                                                        is_bottom))
         for (const unsigned int c :
-             body.contact == RevolvedBody::Part::inner ? std::array{0, 4} :
-             body.contact == RevolvedBody::Part::outer ? std::array{1, 5} :
-                                                         std::array{0, 1})
+             body.contact == RevolvedBody::Part::inner ? corners{{0, 4}} :
+             body.contact == RevolvedBody::Part::outer ? corners{{1, 5}} :
+                                                         corners{{0, 1}})
           collected.add_arc(c, c + 2, std::cos(M_PI / n[0]));
     }
   } // namespace

@@ -180,7 +180,7 @@ namespace Debond
   //   4 s (1 - s)^2 (2 (m + 2 d) s - m).
   //
   // The parabola may cross the curve in the middle; hence also at s = 1/5,
-  // where the part of m is largest.
+  // where the part of m is nearly largest.
   std::array<AdaptiveStepping::Forces, 2>
   AdaptiveStepping::differences_of_parabola(const StepState &state) const
   {

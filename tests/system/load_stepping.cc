@@ -241,6 +241,52 @@ check_many_tolerances()
 
 
 
+/** The first step of a phase on a quartic, whose error is known in it: its
+ *  parabola is 100 s, from which the curve and h times its rate are off by d =
+ *  0.1 and m = -1 in the middle. At s = 1/5 that is 0.512 (0.8 d - 0.6 m) =
+ *  0.348; twice that over 100 is compared with the tolerance. */
+void
+check_first_step()
+{
+  const auto curve_at = [](const double s) {
+    const double d = 0.1, m = -1., c = 2. * (m + 2. * d), p = (1. - s);
+    AdaptiveStepping::Forces F = AdaptiveStepping::Forces::Zero(), rate = F;
+    F[5] = 100. * s + 4. * s * p * p * (c * s - m);
+    rate[5] =
+      100. + 4. * (p * p - 2. * s * p) * (c * s - m) + 4. * s * p * p * c;
+    return std::make_pair(F, rate);
+  };
+  const auto takes_one_step = [&](const double tolerance) {
+    LoadSteppingParameters parameters;
+    parameters.times     = {0, 1};
+    parameters.steps     = {1};
+    parameters.tolerance = tolerance;
+    const auto drive     = [](const double time) {
+      AdaptiveStepping::Forces result = AdaptiveStepping::Forces::Zero();
+      result[5]                       = time;
+      return result;
+    };
+    const auto state_at = [&](const double time) {
+      const auto [forces, rates] = curve_at(time);
+      return StepState{time, forces, drive(time), 0., rates, [] {
+                         return AdaptiveStepping::Forces::Zero();
+                       }};
+    };
+    AdaptiveStepping stepping(parameters, 2.5, ChuckParameters(), drive);
+    stepping.begin_phase(state_at(0.));
+    const Step middle = stepping.next();
+    stepping.take(middle, state_at(middle.time), 1);
+    const Step whole = stepping.next();
+    return middle.time == 0.5 && whole.time == 1. &&
+           stepping.take(whole, state_at(whole.time), 1);
+  };
+  report("A quartic within the tolerance takes one step",
+         takes_one_step(2. * 0.00348 * 1.001));
+  report("Beyond it it does not", !takes_one_step(2. * 0.00348 * 0.999));
+}
+
+
+
 void
 check_adaptive(const double tolerance)
 {
@@ -281,6 +327,7 @@ main()
   check_adaptive(1e-2);
   check_adaptive(1e-3);
   check_adaptive(1e-4);
+  check_first_step();
   check_many_tolerances();
   check_small_forces();
 

@@ -52,7 +52,8 @@ BLUE, RED, GREY = "#0072b2", "#d55e00", "#999999"
 
 def scenes():
     found = glob.glob(os.path.join(ROOT, "prm", "**", "*.prm"), recursive=True)
-    names = sorted(os.path.relpath(path, ROOT) for path in found)
+    # the main scene and its variants first
+    names = sorted((os.path.relpath(path, ROOT) for path in found), key=lambda name: (not name.startswith("prm/coin_mode3"), name))
     return [name for name in names if not NO_SCENES.search(name)]
 
 

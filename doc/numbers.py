@@ -480,7 +480,8 @@ def foundation():
 
 @numbers('seconds')
 def calibrated():
-    scenes, lines = study_with_curves('prm/paper/calibrated.prm'), []
+    scenes = study_with_curves('prm/paper/calibrated.prm')
+    lines = [[], []]  # of each set
     rows = []  # of each set as printed, with a_s fitted to E_deb, and with b_s in its place
     for i, (a_s, b_s) in enumerate(((.022, 2.33), (.026, 4.81))):
         rows += scenes[2 * i:2 * i + 2] + [run('prm/paper/data_set_%d_calibrated.prm' % (i + 1), 'Interface/Characteristic slip distance=%g' % a_s,
@@ -500,8 +501,9 @@ def calibrated():
              lambda row: row['initial_stiffness_Nmm_per_rad'] / 1000),
             ('e_mp against the stand-in [%]', 'the shape', ('', ''), 1, (), lambda row: 100 * row['e_mp'])):
         ours = ['**%.*f**' % (digits, value(row)) if i in missed else '%.*f' % (digits, value(row)) for i, row in enumerate(rows)]
-        lines.append([name, how, paper[0]] + ours[:3] + [paper[1]] + ours[3:])
-    return table(['', 'calibrated scenes', 'set 1: paper', 'as printed', 'by a_s', 'by b_s', 'set 2: paper', 'as printed (1)', 'by a_s', 'by b_s'], lines)
+        for i in (0, 1):
+            lines[i].append([name, how, paper[i]] + ours[3 * i:3 * i + 3])
+    return ''.join(table(['data set %d' % (i + 1), 'calibrated scene', 'paper', 'as printed' + i * ' (1)', 'a_s fitted', 'b_s fitted'], lines[i]) for i in (0, 1))
 
 
 def theta_lin(row):

@@ -34,7 +34,7 @@ do for [format in "png svg"] {
     set size 0.5, 0.5
     set title "Curve as drawn, over " . (over eq "steps" ? "steps" : "time")
     set xlabel (over eq "steps" ? "Steps in each phase" : "Seconds of the run")
-    set xrange [over eq "steps" ? 4 : 0.08 : over eq "steps" ? 400 : 80]
+    set xrange [over eq "steps" ? 4 : 0.4 : over eq "steps" ? 400 : 200]
     x(value) = over eq "steps" && strcol("code") eq "debond adaptive" ? 0.5 * value : value
     plot codes using (x(column(over))):(code("debond adaptive")) with linespoints linetype 1 title "adaptive", \
       codes using over:(code("debond integrated")) with linespoints linetype 2 title "planned steps", \

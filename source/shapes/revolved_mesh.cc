@@ -173,15 +173,15 @@ namespace Debond
       if (is_outer)
         name(RevolvedBody::Part::outer, body.outer_name, {1, 3, 5, 7});
       // edges around of the contact face; its first corners, and so on
-      using corners = std::array<unsigned int, 2>;
+      using Corners = std::array<unsigned int, 2>;
       if (body.is_round &&
           (body.contact == RevolvedBody::Part::inner ? is_inner :
            body.contact == RevolvedBody::Part::outer ? is_outer :
                                                        is_bottom))
         for (const unsigned int c :
-             body.contact == RevolvedBody::Part::inner ? corners{{0, 4}} :
-             body.contact == RevolvedBody::Part::outer ? corners{{1, 5}} :
-                                                         corners{{0, 1}})
+             body.contact == RevolvedBody::Part::inner ? Corners{{0, 4}} :
+             body.contact == RevolvedBody::Part::outer ? Corners{{1, 5}} :
+                                                         Corners{{0, 1}})
           collected.add_arc(c, c + 2, std::cos(M_PI / n[0]));
     }
   } // namespace

@@ -219,6 +219,15 @@ def linear_bodies():
 
 
 @numbers('seconds')
+def bone_in_series():
+    """What the bone under a rigid implant adds to the compliance of the printed interface."""
+    press = isotropic(1800) + ('Bone/Material=linear', 'Implant/Material=rigid', 'Load steps/Times=0, 1', 'Load steps/Steps=1')
+    two_layers, converged = (1 / (.0049 / run(MAIN, *press, *mesh)['pressure_MPa'] - 1 / 1800) for mesh in (
+        (), ('Bone/Element=spline', 'Bone/Cells=60, 60, 12', 'Bone/Layer grading=2', 'Implant/Cells=8, 2')))
+    return '%.0f MPa/mm; %.0f on the two layers of cells of the paper' % (converged, two_layers)
+
+
+@numbers('seconds')
 def steps_of_the_main_scene():
     curves = {n: run(MAIN, *LINEAR, 'Load steps/Steps=1, %d' % n) for n in (1, 10, 100, 1000)}
     worst = {n: max(abs(row['torque_Nmm'] - torque_at(curves[1000]['curve'], row['angle_deg']))
@@ -436,8 +445,10 @@ def shear_of_a_sphere():
         half = next(line for line in row['curve'] if line['time'] == 1.5)
         shift = (1 - .5 ** (2 / 3)) / (half['force_N'] / 60) ** (2 / 3)
         ours, exact = half['chuck_Fx_N'] / (.1 * half['force_N']), 1 - (1 - shift) ** 1.5
-        lines.append([name, '%+.1f %%' % (100 * (ours / exact - 1)), 'cattaneo_mindlin_' + of])
-    return table(['half of mu P', 'Q more than for the P found', 'prm/verification/'], lines)
+        nu = float(name.split(',')[0][5:])
+        of_disk = (1 - 2 * nu) ** 2 / (12 * (1 - nu) * (2 - nu))
+        lines.append([name, '%+.1f %%' % (100 * (ours / exact - 1)), 'cattaneo_mindlin_' + of, '%+.1f %%' % (100 * of_disk)])
+    return table(['half of mu P', 'Q more than for the P found', 'prm/verification/', 'a disk'], lines)
 
 
 @numbers('minutes')
@@ -668,6 +679,20 @@ def baseline():
 
 
 @numbers('seconds')
+def splines_are_closer():
+    """Error of trilinear cells that no faster ones reach, over that of the closest splines that take no longer."""
+    trilinear, splines = (sorted((number(row[seconds].split()[0]), row['torque']) for row in rows_of(TABLES + 'work_precision_%s.csv' % name))
+                          for name, seconds in (('meshes', 'all'), ('splines', 'seconds')))
+    best, parts = math.inf, []
+    for seconds, error in trilinear:
+        closest = min((e for s, e in splines if s <= seconds), default=None)
+        if error < best and closest:
+            parts.append('%.2g times at %.2g s' % (error / closest, seconds))
+        best = min(best, error)
+    return ', '.join(parts)
+
+
+@numbers('seconds')
 def neo_hooke_cost():
     seconds = baseline()
     ratios = [s / seconds[mesh, 'linear', steps, threads] for (mesh, bodies, steps, threads), s in seconds.items() if bodies != 'linear']
@@ -675,21 +700,55 @@ def neo_hooke_cost():
 
 
 @functools.lru_cache(None)
-def codes_factors():
-    text = subprocess.run(['tests/comparison/work_precision.sh', '--factors', 'prm/studies/data/other_codes.csv'],
-                          stdout=subprocess.PIPE, text=True, check=True).stdout
-    return [(line.split()[1], float(line.split()[-1])) for line in text.splitlines() if line.startswith('CalculiX')]
+def codes_rows(name, *options):
+    """Rows of other codes and ours with the seconds of debond at the same error, and how many times as long another code takes."""
+    file = 'prm/studies/data/%s.csv' % name
+    text = subprocess.run(['tests/comparison/work_precision.sh', '--factors', *options, file], stdout=subprocess.PIPE, text=True, check=True).stdout
+    found = {(line[:9].strip(), line[10:55].strip()): line.split()[-2:] for line in text.splitlines()[1:]}
+    return [{**row, 'own': own, 'factor': factor} for row in rows_of(file) for own, factor in [found.get((row['code'], row['label']), ('', ''))]]
+
+
+def codes_table(name):
+    return table(['code, bone / implant', 'increments', 'unknowns', 'seconds', 'error', 'debond, same error or less', 'factor'],
+                 [['%s %s' % (row['code'], row['label']), '%d' % row['increments'], '%d' % row['unknowns'], two_digits(row['seconds']),
+                   small(row['error_torque']), row['own'], row['factor'] and two_digits(float(row['factor']))] for row in codes_rows(name)])
+
+
+@numbers('seconds')
+def codes_curve():
+    return codes_table('other_codes')
+
+
+@numbers('seconds')
+def codes_angles():
+    return codes_table('other_codes_angles')
+
+
+def factors_of(begin, *options):
+    """Smallest and largest for the labels of the curve that begin so."""
+    factors = [float(row['factor']) for row in codes_rows('other_codes', *options) if row['code'] != 'debond' and row['label'].startswith(begin)]
+    low, high = two_digits(min(factors)), two_digits(max(factors))
+    return low if low == high else low + ' to ' + high
 
 
 @numbers('seconds')
 def calculix_factor():
-    factors = [factor for element, factor in codes_factors() if element.startswith('C3D8')]
-    return '%s to %s' % (two_digits(min(factors)), two_digits(max(factors)))
+    return factors_of('C3D8')
 
 
 @numbers('seconds')
 def calculix_quadratic_factor():
-    return two_digits(min(factor for element, factor in codes_factors() if element == 'C3D20R'))
+    return factors_of('C3D20R')
+
+
+@numbers('seconds')
+def getfem_factor():
+    return factors_of('Q')
+
+
+@numbers('seconds')
+def factors_without_start():
+    return '%s, %s and %s' % tuple(factors_of(begin, '--without-start') for begin in ('C3D8', 'C3D20R', 'Q'))
 
 
 # What takes minutes
@@ -732,6 +791,11 @@ def auto_levels():
                     if true and math.isfinite(float(row['estimate'])):
                         factors.append(float(row['estimate']) / true)
     return '%d levels of these chains that have an estimate it bounds the error, %.2f to %.1f times' % (len(factors), min(factors), max(factors))
+
+
+@numbers('minutes')
+def auto_factors():
+    return auto_levels().partition('error, ')[2]
 
 
 @numbers('minutes')
@@ -1044,6 +1108,18 @@ def splines_elsewhere():
         ('tilted by 0.1 degrees', TILTED),
         ('a force instead of a depth', ('Chuck/Press/Control=force', 'Chuck/Press/Value=51.5 * min(t, 1)'))),
         with_mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Interface/Quadrature points=8',), choices)
+
+
+@numbers('seconds')
+def forecast_of_stiff():
+    """The largest torque that --check predicts, against that of the reference."""
+    parts = []
+    for eps in ('1e5', '1e6'):
+        text = check('prm/coin_stiff.prm', 'Interface/Normal stiffness=' + eps)
+        T_max = float(re.search(r'largest torque ([\d.]+) N mm', text)[1])
+        off = T_max / max(row['torque_Nmm'] for row in rows_of('prm/studies/data/stiffness_%s.csv' % eps)) - 1
+        parts.append('%.1f N mm at %s, off by %+.1f %%, and states %s' % (T_max, eps, 100 * off, re.search(r'to some ([\d.]+ %)', text)[1]))
+    return '; '.join(parts)
 
 
 @numbers('minutes')

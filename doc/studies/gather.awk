@@ -1,6 +1,6 @@
 # Gathers study.csv files into one table that is easy to plot: a row for each variant with what was chosen, seconds and
 # errors. Entries that a study does not vary have the value they have in prm/studies/work_precision_scene.prm; studies with
-# splines or quadratic in their name are of such elements.
+# splines or quadratic in their name are of such elements. Seconds are those of a process: -v start=SECONDS that it takes to start.
 BEGIN {
   chosen["Model"] = "finite elements"
   chosen["Bone / Cells"] = "30, 30, 4"
@@ -77,7 +77,7 @@ FNR == 1 {
   if (surface != "nurbs") label = label "; " surface
   if (slave != "implant") label = label "; slave: " slave
   shared = value("seconds_shared_set_up") # a run alone would spend it, too
-  if (shared == "nan") shared = 0
+  shared += start
   printf "%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s\n", tier, mesh, layers, steps, points, surface, slave,
     value("wall_seconds") + shared, value("seconds_before_steps") + shared, value("seconds_stepping"), value("unknowns"),
     value("difference_max"), value("difference_mean"), value("pressure_difference_rms"), value("slip_difference_rms"), label

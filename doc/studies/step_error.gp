@@ -33,7 +33,7 @@ do for [format in "png svg"] {
     set origin (over eq "steps" ? 0 : 0.5), 0
     set size 0.5, 0.5
     set title "Curve as drawn, over " . (over eq "steps" ? "steps" : "time")
-    set xlabel (over eq "steps" ? "Steps in each phase" : "Seconds of the run")
+    set xlabel (over eq "steps" ? "Steps in each phase" : "Seconds of the process")
     set xrange [over eq "steps" ? 4 : 0.4 : over eq "steps" ? 400 : 200]
     x(value) = over eq "steps" && strcol("code") eq "debond adaptive" ? 0.5 * value : value
     plot codes using (x(column(over))):(code("debond adaptive")) with linespoints linetype 1 title "adaptive", \

@@ -2,12 +2,11 @@
 """What steps lose where friction turns: doc/studies/step_error.py [--force] [--publish]
 
 Runs the scenes of the chart of doc/evidence/speed_and_accuracy.md in steps of several sizes, writes output/step_error/order.csv (errors at the
-ends of the steps) and codes.csv (errors of the curves as they are drawn, and seconds less those of an empty process) and draws output/step_error.png. Some ten minutes.
+ends of the steps) and codes.csv (errors of the curves as they are drawn, and seconds of the process) and draws output/step_error.png. Some ten minutes.
 CalculiX takes part where ccx and calculix_input are. --force runs again what is there; --publish copies the pictures to doc/images.
 Other programs: DEBOND, CALCULIX_INPUT, CCX."""
 
 import csv
-import functools
 import math
 import os
 import shutil
@@ -82,26 +81,15 @@ def run(name, entries):
     return directory
 
 
-@functools.lru_cache(None)
-def empty_process(command):
-    """Seconds that a program needs to start [s]."""
-    seconds = []
-    for _ in range(5):
-        begin = time.monotonic()
-        subprocess.run(command, check=False, capture_output=True)
-        seconds.append(time.monotonic() - begin)
-    return min(seconds)
-
-
 def timed(command, directory, **more):
-    """Runs a program; its seconds, less those of an empty process, go to wall_seconds."""
+    """Runs a program; its seconds go to wall_seconds."""
     begin = time.monotonic()
     result = subprocess.run(command, check=False, capture_output=True, text=True, **more)
     seconds = time.monotonic() - begin
     if result.returncode:
         sys.exit('step_error.py: %s\n%s%s' % (' '.join(command), result.stdout[-2000:], result.stderr[-2000:]))
     with open(directory + '/wall_seconds', 'w', encoding='utf-8') as file:
-        file.write('%.4f' % (seconds - empty_process((command[0], '--version' if command[0] == DEBOND else '-v'))))
+        file.write('%.4f' % seconds)
 
 
 def largest_error(reference, rows, groups):

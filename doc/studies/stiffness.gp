@@ -11,7 +11,7 @@ do for [format in "png svg"] {
   load "doc/style.gp"
   set logscale xy
   set format y "10^{%L}"
-  set xrange [0.2:90]
+  set xrange [0.5:90]
   set yrange [5e-5:0.2]
   set xtics (1, 10)
   eval picture(dir . "stiffness", 1500, 640)
@@ -23,7 +23,7 @@ do for [format in "png svg"] {
     set bmargin at screen 0.3; set tmargin at screen 0.89
     set title "ε = " . word(spoken, k) . (k == 5 ? " MPa/mm" : "") offset 0, -0.4
     if (k == 1) { set ylabel "Largest torque error / {/:Italic T}_{max}" offset 1; set format y "10^{%L}" } else { unset ylabel; set format y "" }
-    if (k == 3) { set xlabel "Seconds of the run on one thread" } else { unset xlabel }
+    if (k == 3) { set xlabel "Seconds of the process on one thread, with its start" } else { unset xlabel }
     if (k == 3) { set key at screen 0.5, 0.02 bottom center maxrows 2 samplen 2 width 2 } else { unset key }
     plot for [f=1:5] table using (strcol("stiffness") eq word(stiffnesses, k) && strcol("family") eq word(families, f) ? column("seconds") : NaN):"error" \
       with linespoints pointtype symbol[f] pointsize (1.4 * point) linewidth 1.5 linecolor rgb value(word(colours, f)) title word(labels, f)

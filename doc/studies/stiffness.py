@@ -12,6 +12,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,19 @@ COARSE = Path('prm/studies/data/work_precision_torque.csv')  # of the first, of 
 
 def run(scene):
     subprocess.run([os.environ.get('DEBOND', 'build/release/debond'), 'prm/studies/%s.prm' % scene, '--jobs', '1', '--threads', '1'], check=True)
+
+
+def start():
+    """Seconds that a process takes to start, which variants of a study share: the least of five."""
+    file = RESULTS / 'start'
+    if '--draw' not in sys.argv:
+        seconds = []
+        for _ in range(5):
+            begin = time.monotonic()
+            subprocess.run([os.environ.get('DEBOND', 'build/release/debond'), '--version'], check=True, stdout=subprocess.DEVNULL)
+            seconds.append(time.monotonic() - begin)
+        file.write_text('%.2f\n' % min(seconds), encoding='utf-8')
+    return float(file.read_text(encoding='utf-8'))
 
 
 def rows(path):
@@ -68,11 +82,11 @@ def family(row):
 
 
 def gather():
-    """The table to draw, and lines of Markdown: a mesh each, seconds and error for every stiffness."""
-    lines, meshes = [], {}
+    """The table to draw, and lines of Markdown: a mesh each, seconds of a process and error for every stiffness."""
+    lines, meshes, before = [], {}, start()
     for row in rows(RESULTS / 'stiffness/study.csv'):
         cells = '%s / %s' % (row['Bone / Cells'], row['Implant / Cells'])
-        seconds = float(row['wall_seconds']) + float(row.get('seconds_shared_set_up') or 0)
+        seconds = before + float(row['wall_seconds']) + float(row.get('seconds_shared_set_up') or 0)
         error = float(row['difference_max'])
         lines.append((row['Interface / Normal stiffness'], family(row), cells, seconds, error))
         meshes.setdefault((family(row), cells), {})[row['Interface / Normal stiffness']] = (seconds, error)

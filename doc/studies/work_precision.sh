@@ -34,14 +34,20 @@ run with two threads."
     echo "== $(date +%H:%M) work_precision${study:+_$study}"
     "$debond" "prm/studies/work_precision${study:+_$study}.prm" --jobs 1 --threads 2 "${force[@]}"
   done
+  # what a process of its own would take in addition: the least of five empty ones
+  for _ in 1 2 3 4 5; do
+    TIMEFORMAT=%R
+    { time "$debond" --version > /dev/null; } 2>&1
+  done | sort -g | head -n 1 > $results/start
 fi
 
 for study in work_precision{_closed_forms,_coulomb,_coulomb_splines,_ends,_splines,_quadratic,}; do
   [[ -f $results/$study/study.csv ]] ||
     { echo "work_precision.sh: nothing to draw yet: there is no $results/$study/study.csv; run without --draw first" >&2; exit 1; }
 done
-awk -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,_splines,_quadratic,}/study.csv > $results/work_precision.csv
-awk -f doc/studies/gather.awk $results/work_precision_coulomb{,_splines}/study.csv > $results/work_precision_coulomb.csv
+start=$(cat $results/start)
+awk -v start="$start" -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,_splines,_quadratic,}/study.csv > $results/work_precision.csv
+awk -v start="$start" -f doc/studies/gather.awk $results/work_precision_coulomb{,_splines}/study.csv > $results/work_precision_coulomb.csv
 
 # Rows for which no other is both faster and closer, and that are closer by at least a tenth than the one before:
 # pareto TABLE COLUMN_OF_SECONDS COLUMN_OF_ERROR
@@ -62,7 +68,7 @@ if [[ -f $other_codes ]]; then
   methods=$(awk -F, 'NR > 1 && $1 != "debond" { split($2, part, " "); m = $1 "/" part[1]; if (!seen[m]++) printf "%s ", m }' "$codes")
 else echo "No $other_codes: the picture of codes shows this one alone"
 fi
-gnuplot -e "codes='$codes'; methods='$methods'" doc/studies/work_precision.gp
+gnuplot -e "codes='$codes'; methods='$methods'; start='$start'" doc/studies/work_precision.gp
 echo "On the front of torque curves (seconds, largest error relative to T_max):"
 awk -F, 'NR > 1 { printf "%9.3f  %.1e  %s\n", $8, $12, $16 }' $results/front_torque.csv
 {
@@ -76,6 +82,6 @@ if [[ $publish == true ]]; then
   for picture in work_precision work_precision_local work_precision_codes; do
     for format in png svg; do cp $results/$picture.$format doc/images/; done
   done
-  doc/studies/publish.py doc/evidence/speed_and_accuracy.md work_precision splines+ meshes factors fastest+ front < $results/work_precision.md
+  doc/studies/publish.py doc/evidence/speed_and_accuracy.md work_precision splines+ meshes factors fastest+ front+ < $results/work_precision.md
   echo "Published in doc/images and doc/evidence"
 fi

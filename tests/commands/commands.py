@@ -135,9 +135,32 @@ def unknown_names(text):
                     yield '%s does not know %s' % (script, word)
 
 
+# Which package has a program of a command, or a module of a block of Python, that the program itself does not need.
+PACKAGES = {'gnuplot': 'gnuplot', 'pvpython': 'paraview', 'paraview': 'paraview', 'xvfb-run': 'xvfb', '--target site': 'furo', 'mpirun': 'openmpi-bin',
+            'jupyter': 'jupyter', 'pandas': 'python3-pandas', 'numpy': 'python3-numpy', 'scipy': 'python3-scipy', 'emcee': 'python3-emcee',
+            'matplotlib': 'python3-matplotlib', 'mpi4py': 'python3-mpi4py', 'dask': 'python3-dask', 'concurrent': 'python3', 'debond': 'python3'}
+
+
+def lacking_packages(commands):
+    """What ./quickstart does not install, and the page has not told to install before it is used."""
+    installed = re.search(r'^packages=\((.*?)\)', open(os.path.join(ROOT, 'quickstart'), encoding='utf-8').read(), re.M | re.S)[1].split() + ['python3']
+    uses = [(command.page, command.line, name) for command in commands for name in PACKAGES
+            if command.text.startswith(name + ' ') or name[0] == '-' and name in command.text]
+    for page in {command.page for command in commands}:
+        text = open(os.path.join(ROOT, page), encoding='utf-8').read()
+        for block in re.finditer(r'^```python\n(.*?)^```', text, re.M | re.S):
+            names = re.findall(r'^\s*(?:import|from) (\w+)', block[1], re.M) + ['pandas'] * bool(re.search(r'\.(frame|table)\(\)', block[1]))
+            uses += [(page, text[:block.start()].count('\n') + 1, name) for name in names if name not in sys.stdlib_module_names]
+    for page, line, name in uses:
+        before = ''.join(open(os.path.join(ROOT, page), encoding='utf-8').readlines()[:line])
+        if PACKAGES[name] not in installed and not re.search(r'apt install[^`\n]*\b' + PACKAGES[name], before.replace('`apt\ninstall', '`apt install')):
+            yield '%s:%d: %s is used, and nothing above says: apt install %s' % (page, line, name, PACKAGES[name])
+
+
 def check(build):
     commands, (entries, _, errors) = all_commands(), table()
     pages = {command.text for command in commands}
+    errors += lacking_packages(commands)
     for command in commands:
         if command.text not in entries:
             errors.append('%s:%d: this command is not in %s: %s' % (command.page, command.line, TABLE, command.text))

@@ -7,10 +7,10 @@ export LC_ALL=C
 usage="usage: work_precision.sh [OPTIONS] OUTPUT.csv
 
 Solves coin.prm with debond, CalculiX (ccx) and GetFEM on several meshes and
-writes a row for each run: code, label, wall seconds of the whole process less
-those of an empty one (debond --version, ccx -v, import getfem), error (largest
-difference of the torque from the reference over the largest torque), unknowns,
-increments. A code that is not installed is left out.
+writes a row for each run: code, label, wall seconds of the whole process, error
+(largest difference of the torque from the reference over the largest torque),
+unknowns, increments, start (seconds of an empty process: debond --version,
+ccx -v, import getfem). A code that is not installed is left out.
 
   --curve             a torque curve with a value every 0.05 degrees (debond and
                       CalculiX only) instead of four angles, one step to each;
@@ -24,6 +24,7 @@ increments. A code that is not installed is left out.
   --list              print the runs and their seconds, run nothing
   --factors           run nothing, print of an OUTPUT.csv how many times faster
                       debond reaches the same error (also printed after a run)
+  --without-start     of these factors: leave out the start of the programs
   --help              print this text
 
 Environment: DEBOND, CALCULIX_INPUT, CCX, PYTHON name the programs; by default
@@ -95,6 +96,7 @@ only=
 list=false
 clock=wall
 factors=false
+without_start=0
 while [ $# -gt 0 ]; do
   case $1 in
     --help) echo "$usage"; exit 0 ;;
@@ -102,6 +104,7 @@ while [ $# -gt 0 ]; do
     --processor) clock=processor ;;
     --curve) curve=true; steps=(1 1 1 4 14); reference=$here/../../prm/studies/data/work_precision_coulomb.csv ;;
     --factors) factors=true ;;
+    --without-start) without_start=1 ;;
     --at-most | --only)
       [ $# -ge 2 ] || fail "$1 needs a value (see work_precision.sh --help)"
       case $1 in
@@ -125,8 +128,9 @@ $list || [ -n "$output" ] || fail "no file to write is given (see work_precision
 # runs. An error larger than debond's largest is given debond's least seconds; a
 # smaller one no factor.
 print_factors() {
-  awk -F, '
+  awk -F, -v OFS=, -v without="$without_start" '
     FNR == 1 { next }
+    { $3 -= without * $7 }
     $1 == "debond" && $2 ~ /^(nurbs|splines)/ { ++all; s[all] = $3; e[all] = $4; next }
     $1 != "debond" { ++m; row[m] = $0 }
     function front(     i, k, best) { # faster runs first, each closer than the last
@@ -215,7 +219,7 @@ timed() {
   done
 }
 
-# Seconds that a code takes for nothing, once it has been loaded.
+# Seconds that a code takes to start, once it has been loaded.
 declare -A empty
 measure_empty() {
   [ -n "${empty[$1]:-}" ] && return
@@ -297,7 +301,7 @@ error_of_curve() {
 }
 
 steps_of_scene=$(IFS=,; echo "${steps[*]}")
-echo "code,label,seconds,error_torque,unknowns,increments" > "$directory/table"
+echo "code,label,seconds,error_torque,unknowns,increments,start" > "$directory/table"
 while read -r code method bone implant layers threads _; do
   [ -n "$code" ] || continue
   measure_empty "$code"
@@ -306,9 +310,8 @@ while read -r code method bone implant layers threads _; do
   radius=2.5
   [[ $method == *-round ]] && radius=$(equal_area_radius "$implant")
   "run_$code" < /dev/null
-  seconds=$(awk "BEGIN { print $seconds - ${empty[$code]} }")
   error=$(error_of_curve) || fail "$code $label: an angle of $reference is missing"
-  echo "$code,$label,$seconds,$error,$unknowns,$increments" | tee -a "$directory/table" >&2
+  echo "$code,$label,$seconds,$error,$unknowns,$increments,${empty[$code]}" | tee -a "$directory/table" >&2
 done <<< "$chosen"
 mkdir -p "$(dirname "$output")"
 mv "$directory/table" "$output"

@@ -3,18 +3,22 @@
 between <!-- numbers: NAME --> and <!-- end -->, and the tables of doc/reference/parameters.md.
 
     doc/numbers.py                  all that take seconds, into the pages (some two minutes)
-    doc/numbers.py NAME...          only these; --all: those that take minutes, too; --list: all names, cost, pages
+    doc/numbers.py NAME...          only these; --all: those that take minutes, too
+    doc/numbers.py --list           all names, their cost, pages, and the files that they depend on; the pictures of doc/evidence
     doc/numbers.py --check [NAME]   changes no page; exit code 1 if a page says something else
 
 Each function below with @numbers is one NAME, and returns what stands there. Tables of more than a dozen rows go to
 doc/evidence/tables/NAME.csv, and a few of their rows to the page. Runs go to output/numbers; --force runs studies again
 that are there already. Programs: build/release/debond, or DEBOND. In a check numbers may differ by one unit of the last digit
-that the page prints. Seconds are those of one machine: they come from tables that are stored.
+that the page prints. Seconds are those of one machine: they come from tables that are stored. What has the cost `machine' consists of
+seconds and memory, or of more digits than another processor gives, and is compared with nothing.
 """
 import argparse
 import csv
 import functools
 import glob
+import inspect
+import io
 import json
 import math
 import os
@@ -50,7 +54,7 @@ def isotropic(eps):
 
 
 def numbers(cost):
-    """Registers a function as NAME; cost is `seconds' or `minutes'."""
+    """Registers a function as NAME; cost is `seconds', `minutes' or `machine'."""
     def register(function):
         NAMES[function.__name__] = (function, cost)
         return function
@@ -754,7 +758,56 @@ def factors_without_start():
 # What takes minutes
 
 
+def stored(name):
+    """Head and rows of a table that doc/studies/publish.py has written."""
+    return next((head, rows) for head, *rows in [list(csv.reader(io.StringIO(text_of(TABLES + name + '.csv'))))])
+
+
+def with_seconds_of(name, rows):
+    """New rows with the seconds that are stored."""
+    return [[old if re.fullmatch(r'[\d.]+ s', old) else new for old, new in zip(*both)] for both in zip(stored(name)[1], rows)]
+
+
 @numbers('minutes')
+def stiffness():
+    """Errors of today beside the stored seconds; doc/studies/stiffness.py --publish measures both."""
+    errors = iter([row['difference_max'] for row in study('prm/studies/stiffness.prm')])
+    head, rows = stored('stiffness')
+    rows = [[row[0]] + ['%s: %.1e' % (cell.split(':')[0], next(errors)) for cell in row[1:]] for row in rows]
+    CSV_FILES['stiffness'] = csv_of(head, rows)
+    return table(head, [rows[i] for i in (1, 3, 5, 10, 12)]) + link('stiffness', rows)
+
+
+@numbers('minutes')
+def work_precision():
+    """The same of the tables of doc/studies/work_precision.sh --publish."""
+    def awk(script, *files):
+        return subprocess.run(['awk', '-f', 'doc/studies/%s.awk' % script, *files], stdout=subprocess.PIPE, text=True, check=True).stdout
+
+    scenes = ['prm/studies/work_precision%s.prm' % name for name in ('_closed_forms', '_ends', '_splines', '_quadratic', '')]
+    text = awk('gather', *(study(scene) and directory_of(scene, ()) + '/study.csv' for scene in scenes))
+    gathered = options.results + '/work_precision.csv'
+    with open(gathered, 'w', encoding='utf-8') as file:
+        file.write(text)
+
+    def errors_of(choice, column):  # closed forms with the stiffness of several meshes are called alike
+        return [row[column] for row in rows_of(gathered) if row['label'] == choice]
+
+    tables = dict(zip(('splines', 'meshes', 'factors'), map(rows_of_markdown, re.split(r'\n\s*\n', awk('tables', gathered)))))
+    tables = {name: (head, with_seconds_of('work_precision_' + name, rows)) for name, (head, rows) in tables.items()}
+    head, rows = stored('work_precision_front')
+    tables['front'] = head, [row[:2] + ['%.1e' % min(errors_of(row[3], 'error_torque'), key=lambda error: abs(error - float(row[2])))] + row[3:]
+                             for row in rows]
+    head, rows = stored('work_precision_fastest')
+    errors = ('error_torque', 'error_pressure', 'error_slip')
+    tables['fastest'] = head, [row[:1] + [cell if min(errors_of(cell.split(': ', 1)[1], error)) <= 1.01 * float(row[0][:-2]) / 100 else 'not this one'
+                                          for cell, error in zip(row[1:], errors)] for row in rows]
+    for name, (head, rows) in tables.items():
+        CSV_FILES['work_precision_' + name] = csv_of(head, rows)
+    return ''.join(table(*tables[name]) for name in ('splines', 'fastest', 'front'))
+
+
+@numbers('machine')
 def stability():
     text = subprocess.run(['doc/stability/stability.sh'], stdout=subprocess.PIPE, text=True, check=True).stdout
     return long_table('stability', *rows_of_markdown(text), [
@@ -855,7 +908,7 @@ def partial_readings():
                   'from 0.5 deg on [%]', 'W_adh, four rows [N mm]', 'e_mp, four rows [%]'], lines)
 
 
-@numbers('minutes')
+@numbers('machine')
 def memory():
     lines = []
     for bone, implant in (('15, 15, 2', '3, 2'), ('30, 30, 2', '6, 2'), ('60, 60, 2', '12, 2'), ('30, 30, 12', '6, 12'), ('120, 120, 2', '24, 2')):
@@ -1138,7 +1191,7 @@ def stiff_elsewhere():
         with_mesh('fitted 24, 8, 14, 11', 'fitted 20, 6, 6', 1, 'spline', '2e-4'), choices)
 
 
-@numbers('minutes')
+@numbers('machine')
 def lattice():
     scene = ('prm/coin_mode3_spline.prm', 'Load steps/Tolerance=1e-3')
 
@@ -1184,7 +1237,7 @@ def pair(rows, name, form):
     return ' / '.join(form % row[name] for row in rows)
 
 
-@numbers('minutes')
+@numbers('machine')
 def multigrid_sizes():
     lines = []
     for cells in ('25, 25, 5', '40, 40, 10', '75, 75, 15', '130, 130, 25'):
@@ -1214,7 +1267,7 @@ def multigrid_contrast():
     return table(['what varies', 'cycles to 1e-8'], lines)
 
 
-@numbers('minutes')
+@numbers('machine')
 def multigrid_splines():
     cubes = 'if(sin(pi * x / 0.6) * sin(pi * y / 0.6) * sin(pi * z / 0.6) > 0, 18000, %g)'
     lines = []
@@ -1243,7 +1296,7 @@ CURVE = ('Output/Fields every=none', 'Implant/Cells=12, 4', 'Load steps/Toleranc
 VARIES = ('Bone/Young modulus=18000 * exp(x / 10)',)
 
 
-@numbers('minutes')
+@numbers('machine')
 def multigrid_crossover():
     lines = []
     for cells in ('40, 40, 10', '75, 75, 15', '100, 100, 20'):
@@ -1258,7 +1311,7 @@ def multigrid_crossover():
     return table(['cells', 'unknowns', 'direct [s]', '[GB]', 'multigrid [s]', '[GB]', 'linear systems', 'cycles in all'], lines)
 
 
-@numbers('minutes')
+@numbers('machine')
 def multigrid_large():
     cells = '130, 130, 25'
     row = run_on(2, 'Bone/Cells=' + cells, *CURVE)
@@ -1385,6 +1438,50 @@ def axis(text, letter):
     return re.sub(r'(?<=[+uFrM])x(?![a-z])', letter, text)
 
 
+# The command of each picture of doc/evidence, which its page names, and the files that it depends on beside the program.
+PICTURES = {
+    'fig_1 fig_3_12 fig_4 fig_5 fig_6 fig_7 fig_8 fig_9 fig_10 fig_13': ('doc/pictures.sh paper', 'doc/paper prm/paper'),
+    'work_precision work_precision_local work_precision_codes': ('doc/studies/work_precision.sh --publish', 'doc/studies prm/studies'),
+    'stiffness': ('doc/studies/stiffness.py --publish', 'doc/studies prm/studies/stiffness.prm prm/studies/data'),
+    'step_error': ('doc/pictures.sh step_error', 'doc/studies/step_error.py doc/studies/step_error.gp prm/coin_mode3.prm'),
+    'stability_slip_direction stability_chatter stability_penalty stability_snap_back': ('doc/pictures.sh stability', 'doc/stability prm/stability'),
+    'convergence': ('doc/pictures.sh convergence', 'doc/verification/convergence.sh doc/verification/convergence.gp prm/verification'),
+    'cap_pulled_off_force': ('doc/pictures.sh cap_pulled_off', 'doc/verification/cap_pulled_off.sh doc/verification/cap_pulled_off.gp '
+                             'prm/verification/cap_pulled_off.prm'),
+    'bonds_on_half_spaces': ('doc/pictures.sh bonds', 'doc/verification/bonds_on_half_spaces.sh doc/verification/bonds_on_half_spaces.gp '
+                             'prm/verification/kendall.prm prm/verification/bonded_disk_torsion.prm')}
+
+
+def complaints_about_evidence():
+    """Pictures that are not in the list, or whose page does not name the command; tables of doc/evidence that nothing makes."""
+    commands = {name: (command, files) for names, (command, files) in PICTURES.items() for name in names.split()}
+    text = {page: text_of(page) for page in glob.glob('doc/evidence/*.md')}
+    for page in text:
+        for name in re.findall(r'\(../images/(\w+)\.\w+\)', text[page]):
+            command, files = commands.get(name, (None, ''))
+            if command is None or command not in text[page]:
+                yield '%s: %s.png: no command, or not that of PICTURES: %s' % (page, name, command)
+            yield from ('%s depends on %s, which is not there' % (name, file) for file in files.split() if not os.path.exists(file))
+    made = ''.join(inspect.getsource(function) for function, _ in NAMES.values()) + 'work_precision_splines meshes factors front fastest'
+    for path in glob.glob(TABLES + '*.csv'):
+        name, rows = os.path.basename(path)[:-4], rows_of(path)
+        by_hand = [column for column in rows[0] if column.startswith(('test', 'made with'))]
+        if name.replace('work_precision_', '') not in made and (not by_hand or any(not str(row[by_hand[0]]).strip() for row in rows)):
+            yield '%s: no function of numbers.py makes it, and no column says what does' % path
+
+
+def files_of(function, seen=()):
+    """Scenes, scripts and tables that a function names, also by way of functions and constants that it uses; % stands for any text."""
+    source = inspect.getsource(function)
+    used = [globals().get(name) for name in dict.fromkeys(re.findall(r'(?<![.\w])[A-Z_]{3,}|(?<![.\w])\w+(?=\()', source))]
+    files = set(re.findall(r"'((?:prm|doc|tests)/[^' ]+\.(?:prm|csv|py|sh))'", source))
+    files |= {one for one in used if isinstance(one, str) and re.fullmatch(r'(prm|doc|tests)/.*\.prm', one)}
+    for other in (getattr(one, '__wrapped__', one) for one in used):
+        if inspect.isfunction(other) and other.__module__ == __name__ and other not in (function, *seen):
+            files |= files_of(other, (function, *seen))
+    return files
+
+
 def pages():
     return ['README.md', 'tests/comparison/README.md'] + sorted(glob.glob('doc/**/*.md', recursive=True))
 
@@ -1463,15 +1560,21 @@ def main():
     parser.add_argument('--debond', default=os.environ.get('DEBOND', 'build/release/debond'), help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.list:
-        for name, (_, cost) in NAMES.items():
-            print('%-24s %-8s %s' % (name, cost, ' '.join(page for page in pages() if '<!-- numbers: %s -->' % name in text_of(page))))
+        for name, (function, cost) in NAMES.items():
+            print('%-24s %-8s %s; %s' % (name, cost, ' '.join(page for page in pages() if '<!-- numbers: %s -->' % name in text_of(page)),
+                                         ' '.join(sorted(files_of(function)))))
+        for names, (command, files) in PICTURES.items():
+            print('%s: %s; %s' % (names, command, files))
         return
     unknown = set(options.names) - set(NAMES)
     if unknown:
         sys.exit('numbers.py: no such NAME: %s; --list names all' % ', '.join(sorted(unknown)))
     if not os.access(options.debond, os.X_OK):
         sys.exit('numbers.py: there is no %s: build the program first, or set DEBOND' % options.debond)
-    wanted = options.names or [name for name, (_, cost) in NAMES.items() if options.all or cost == 'seconds']
+    wanted = options.names or [name for name, (_, cost) in NAMES.items() if cost == 'seconds' or options.all and not (options.check and cost == 'machine')]
+    complaints = list(complaints_about_evidence())
+    if complaints:
+        sys.exit('\n'.join(complaints))
     results = [treat(page, wanted) for page in pages()]
     good = all([treat_table(name) for name in CSV_FILES])
     unused = set(NAMES) - set().union(*(found for _, found in results))

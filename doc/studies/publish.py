@@ -3,7 +3,7 @@
     doc/studies/publish.py PAGE MARK NAME...
 
 Each goes to doc/evidence/tables/MARK_NAME.csv (MARK.csv if NAME is all). Those whose NAME ends with + stand in PAGE as well, between
-<!-- tables: MARK --> and <!-- end of tables -->; with NAME:1,3 only rows 1 and 3 of it, from 0 on, and a link.
+<!-- numbers: MARK --> and <!-- end -->; with NAME:1,3 only rows 1 and 3 of it, from 0 on, and a link.
 """
 import importlib.util
 import os
@@ -29,7 +29,7 @@ def main(page, mark, *names):
         elif name.endswith('+'):
             in_page.append(PAGES.table(head, rows))
     old = PAGES.text_of(page)
-    new = re.sub(r'(<!-- tables: %s -->).*?(<!-- end of tables -->)' % mark, lambda match: match[1] + ''.join(in_page) + match[2], old, flags=re.S)
+    new = re.sub(r'(<!-- numbers: %s -->).*?(<!-- end -->)' % mark, lambda match: match[1] + ''.join(in_page) + match[2], old, flags=re.S)
     with open(page, 'w', encoding='utf-8') as lines:
         lines.write(new)
 

@@ -55,7 +55,8 @@ def _kind(item: str) -> str:
 def remark_on(item: str) -> str:
     """What to do with an item that is no number."""
     kind = _kind(item)
-    return (": remove this row" if kind == "nothing" else
+    return (": this formula has no value yet: save the workbook once with a program that computes it" if item[:1] == "=" else
+            ": remove this row" if kind == "nothing" else
             ": it is a date or a time of day; expected is a column with a number" if kind == "time" else
             ": write thousands without a separator" if _THOUSANDS.fullmatch(item) else
             ": write its unit into the name of the column" if _NUMBER_AND_UNIT.fullmatch(item) else
@@ -138,7 +139,8 @@ class Table:
     def _refuse_no_row(self, lines, separators):
         cells = [(number, item) for number, line in lines for separator in separators for item in split(line, separator)]
         odd = next((f"; '{shortened(item)}' in line {number}{remark_on(item)}" for number, item in cells
-                    if _kind(item) == "text" and (_THOUSANDS.fullmatch(item) or _NUMBER_AND_UNIT.fullmatch(item))), "")
+                    if item[:1] == "=" or
+                    _kind(item) == "text" and (_THOUSANDS.fullmatch(item) or _NUMBER_AND_UNIT.fullmatch(item))), "")
         first = f", and its first line is '{shortened(lines[0][1])}'" if lines else ""
         self.refuse("this file holds no row of numbers; expected are two columns or more, separated by commas, semicolons, "
                     f"tabs or blanks{first}{odd}")

@@ -9,7 +9,7 @@ Semicolons, tabs, commas or blanks separate items, in the way that makes most li
 comma, where commas separate in quotes. The first such line begins the table. The one or two lines above, if they have as many
 items and no numbers, or else a comment right above, name the columns and their units; what stands before them is not read,
 nor are comments: lines that begin with `#`, `%` or `//`. What may be read in two ways is refused. Text is UTF-8, UTF-16 or
-Latin-1. Of a workbook (xlsx) the first sheet with numbers is read, in the same way.
+Latin-1. Of a workbook (xlsx) the first sheet with numbers that is not hidden is read, in the same way.
 """
 
 import io
@@ -87,22 +87,28 @@ def _text_of(content, refuse):
 
 
 def _sheets_of(content, refuse):
-    """(name, text) of the sheets of a workbook, with a line per row and tabs between cells. Dates are texts."""
+    """(name, text) of the sheets of a workbook that are not hidden, with a line per row and tabs between cells. Dates are
+    texts, and so are formulas that no program has computed."""
     try:
         import openpyxl
     except ImportError:
         refuse("this is a workbook, which needs openpyxl: apt install python3-openpyxl, or save it as CSV")
     try:
-        book = openpyxl.load_workbook(io.BytesIO(content), data_only=True)
+        book = computed = openpyxl.load_workbook(io.BytesIO(content))
+        if any(cell.data_type == "f" for sheet in book.worksheets for row in sheet.iter_rows() for cell in row):
+            computed = openpyxl.load_workbook(io.BytesIO(content), data_only=True)
     except Exception as error:  # of many kinds, from the ZIP archive on
-        refuse(f"this workbook cannot be read: {shortened(str(error)).split(chr(10))[0]}")
+        refuse(f"this workbook cannot be read: {shortened(str(error)).split(chr(10))[0]}; save it as .xlsx or as CSV")
 
-    def text_of(cell):
-        text = "" if cell is None else repr(cell) if isinstance(cell, float) else str(cell)
+    def text_of(cell, value):
+        if value is None and cell.data_type == "f":
+            value = getattr(cell.value, "text", cell.value)
+        text = "" if value is None else repr(value) if isinstance(value, float) else str(value)
         return " ".join(text.replace('"', "''").split())
 
-    return [(sheet.title, "\n".join("\t".join(map(text_of, row)) for row in sheet.iter_rows(values_only=True)))
-            for sheet in book.worksheets]
+    return [(sheet.title, "\n".join("\t".join(map(text_of, *rows)) for rows in
+                                    zip(sheet.iter_rows(), computed[sheet.title].iter_rows(values_only=True))))
+            for sheet in book.worksheets if sheet.sheet_state == "visible"]
 
 
 def _read_bytes(filename, refuse):
@@ -122,6 +128,10 @@ def texts_of(filename, refuse) -> List[Tuple[str, str]]:
     """(name, text) of each sheet of a workbook, with tabs between cells; of any other file ("", text). refuse: raises
     InputError with what is wrong with the file."""
     content = _read_bytes(filename, refuse)
+    if content.startswith(b"\xd0\xcf\x11\xe0"):
+        refuse("this is a workbook of Excel before 2007 (.xls), or one with a password: save it as .xlsx without one, or as CSV")
+    if b"application/vnd.oasis.opendocument" in content[:100]:
+        refuse("this is a workbook of LibreOffice (.ods): save it as .xlsx or as CSV")
     return _sheets_of(content, refuse) if content.startswith(b"PK\x03\x04") else [("", _text_of(content, refuse))]
 
 

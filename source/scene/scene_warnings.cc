@@ -125,7 +125,7 @@ namespace Debond
             cell = std::max(body->cell_width(0), body->cell_width(1));
           }
       const double zone = E * bond.work / (bond.strength * bond.strength);
-      note(E > 0. && zone < cell,
+      note(E > 0. && zone < cell && R <= 100.,
            "cohesive zone",
            "a bond that breaks along the face does so over some " +
              to_text(zone, 3) +
@@ -161,24 +161,26 @@ namespace Debond
           to_text(law.mu_without_bond()) + ". Are they swapped?");
       const double distance = law.characteristic_distance(),
                    R        = scene.implant.characteristic_radius();
-      note(R < 0.1,
+      const bool has_size   = R >= 0.1 && R <= 100.;
+      note(!has_size,
            "size of the implant",
            "the implant's face has a radius of " + to_text(R, 3) +
-             " mm: lengths are mm. If it was meant in m, that is " +
-             to_text(1e3 * R, 3) + " mm");
+             " mm: lengths are mm. If it was meant in " +
+             (R < 0.1 ? "m" : "um") + ", that is " +
+             to_text((R < 0.1 ? 1e3 : 1e-3) * R, 3) + " mm");
       const double mu =
         std::max(law.coefficient({}, 0.).mu, law.mu_without_bond());
       note(mu > 10.,
            "size of mu",
            "the friction coefficient is " + to_text(mu, 3) +
              ": it is a number, no per cent");
-      note(law.has_bond() && R >= 0.1 && distance > 0.5 * R,
+      note(law.has_bond() && has_size && distance > 0.5 * R,
            "length of the bond",
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) +
              " mm, more than half the radius: lengths are mm, 22 um is 0.022");
       // that of the paper is a hundredth of the radius
-      note(law.has_bond() && distance < 5e-5 * R,
+      note(law.has_bond() && has_size && distance < 5e-5 * R,
            "short bond",
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) + " mm: lengths are mm, 22 um is 0.022");
@@ -291,7 +293,7 @@ namespace Debond
       // Soft bodies may be meant to be pressed by little.
       const double p = push / (implant.width(0) * implant.width(1) *
                                implant.geometry().share_of_rectangle());
-      note(z.loaded && push > 0. &&
+      note(z.loaded && push > 0. && implant.characteristic_radius() <= 100. &&
              p < std::min({1e-3,
                            1e-6 * bone.young_modulus,
                            1e-6 * implant.young_modulus}),
@@ -407,6 +409,31 @@ namespace Debond
 
 
 
+    // The bone stands on a plate with a hole, and is held there.
+    void
+    judge_plate(const Scene               &scene,
+                const std::string         &entry,
+                const std::vector<double> &values,
+                const Note                &note)
+    {
+      const double hole = scene.bone.support_radius,
+                   R    = 0.5 * scene.implant.width(0);
+      note(hole < R,
+           "hole of the plate",
+           "Bone / Support radius = " + to_text(hole) +
+             " mm is less than the implant's radius, " + to_text(R) +
+             " mm: it would be pushed onto the plate, which it does not meet "
+             "here");
+      note(*std::max_element(values.begin(), values.end()) > 0.,
+           "pull from the plate",
+           entry +
+             " pulls the implant up, and the plate (Bone / Support "
+             "radius) holds the bone, where a plate only pushes: expected "
+             "Ends = held, or a push");
+    }
+
+
+
     void
     judge_chuck(const Scene &scene, const Note &note)
     {
@@ -435,6 +462,9 @@ namespace Debond
             judge_crossing(scene, k, entry, values, note);
           if (is_on_bone(scene) && k == ChuckComponent::translation_z)
             judge_push(scene, entry, values, note);
+          if (k == ChuckComponent::translation_z &&
+              scene.bone.support_radius > 0.)
+            judge_plate(scene, entry, values, note);
           if (k == ChuckComponent::rotation_z)
             judge_rotation(scene, entry, values, note);
         }

@@ -6,8 +6,10 @@
 
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <optional>
@@ -31,10 +33,13 @@ namespace Debond
             boost::trim(line, std::locale::classic());
             if (line.empty() || boost::starts_with(line, "**"))
               continue;
-            if (line[0] == '*')
-              begin_section(line);
-            else
+            // a comma at the end of a keyword's line continues it in the next
+            const bool goes_on = boost::ends_with(keyword, ",");
+            if (line[0] != '*' && !goes_on)
               read_data(line);
+            else if (keyword = line[0] == '*' ? line : keyword + line;
+                     !boost::ends_with(keyword, ","))
+              begin_section(keyword);
           }
         if (!unfinished.empty())
           refuse("it is cut off within an element");
@@ -66,19 +71,26 @@ namespace Debond
         if (!unfinished.empty())
           refuse("the element before has too few nodes");
         parameters.clear();
-        const auto words = items_of(line);
+        const auto        words  = items_of(line);
+        const std::string before = section;
         section = boost::to_upper_copy(words[0], std::locale::classic());
-        for (const auto &word : words)
+        for (auto word = words.begin() + 1; word != words.end(); ++word)
           {
-            const auto  equals = std::min(word.find('='), word.size());
-            std::string value  = word.substr(std::min(equals + 1, word.size()));
+            const auto  equals = std::min(word->find('='), word->size());
+            std::string value =
+              word->substr(std::min(equals + 1, word->size()));
             boost::trim_if(value, boost::is_any_of(" \t\""));
             parameters[boost::to_upper_copy(boost::trim_copy(
-                                              word.substr(0, equals)),
+                                              word->substr(0, equals)),
                                             std::locale::classic())] = value;
           }
-        if (section == "*INCLUDE")
-          refuse("*INCLUDE: expected nodes and elements in this file");
+        // loads and output: nothing there makes nodes or elements
+        if (before == "*STEP" && section != "*END STEP")
+          {
+            section = before;
+            return;
+          }
+        check_keyword();
         if (section == "*ELEMENT")
           begin_elements();
         if (section == "*SURFACE")
@@ -89,6 +101,36 @@ namespace Debond
             else
               surfaces[parameters["NAME"]];
           }
+      }
+
+      /** What would change nodes, elements or faces, or may do so, is not left
+       *  out without a word. */
+      void
+      check_keyword()
+      {
+        static const std::vector<std::string> harmless = items_of(
+          "*HEADING,*PREPRINT,*PART,*END PART,*ASSEMBLY,*END ASSEMBLY,"
+          "*INSTANCE,*END INSTANCE,*NODE,*ELEMENT,*NSET,*ELSET,*SURFACE,"
+          "*ORIENTATION,*SOLID SECTION,*SHELL SECTION,*MEMBRANE SECTION,"
+          "*SURFACE SECTION,*BEAM SECTION,*SECTION CONTROLS,*DISTRIBUTION,"
+          "*DISTRIBUTION TABLE,*MATERIAL,*ELASTIC,*DENSITY,*PLASTIC,"
+          "*HYPERELASTIC,*VISCOELASTIC,*EXPANSION,*CONDUCTIVITY,"
+          "*SPECIFIC HEAT,*DAMPING,*DEPVAR,*USER MATERIAL,*TRANSFORM,"
+          "*AMPLITUDE,*TIME POINTS,*PHYSICAL CONSTANTS,*BOUNDARY,"
+          "*INITIAL CONDITIONS,*FRICTION,*SURFACE INTERACTION,"
+          "*SURFACE BEHAVIOR,*CONTACT PAIR,*STEP,*END STEP");
+        if (!std::count(harmless.begin(), harmless.end(), section))
+          refuse(section +
+                 " may make, move or join nodes and elements, and is not "
+                 "understood: expected all of them in *NODE and *ELEMENT; "
+                 "remove it if it does none of this");
+        for (const auto &[name, value] : parameters)
+          if ((section == "*NODE" || section == "*ELEMENT") && name != "TYPE" &&
+              name != "NSET" && name != "ELSET" &&
+              !(name == "SYSTEM" && upper(name) == "R"))
+            refuse(section + ", " + name + "=" + value +
+                   " is not understood: expected numbers and x, y, z of nodes, "
+                   "and the nodes of elements, in this file");
       }
 
       void
@@ -124,8 +166,14 @@ namespace Debond
         dealii::Point<3> x;
         for (unsigned int d = 0; d < 3; ++d)
           {
+            // 1.5D0 is Fortran's
             const auto number =
-              d + 1 < items.size() ? read_number(items[d + 1]) : std::nullopt;
+              d + 1 < items.size() ?
+                read_number(boost::replace_all_copy(
+                  boost::to_upper_copy(items[d + 1], std::locale::classic()),
+                  "D",
+                  "E")) :
+                std::nullopt;
             if (!number)
               refuse("expected a node, its number and x, y, z");
             x[d] = number.value_or(0.);
@@ -280,6 +328,7 @@ namespace Debond
 
       const FileRefusal                        &refuse_file;
       unsigned int                              line_number = 0;
+      std::string                               keyword; ///< its line
       std::string                               section;
       std::map<std::string, std::string>        parameters; ///< of it
       bool                                      is_solid         = false;

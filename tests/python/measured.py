@@ -181,14 +181,15 @@ def check_texts():
     measured._LARGEST_MB = largest
 
 
-def workbook(*sheets):
-    """A file with sheets of rows."""
+def workbook(*sheets, hidden=()):
+    """A file with sheets of rows; hidden: {name: state}."""
     import openpyxl
 
     book = openpyxl.Workbook()
     book.remove(book.active)
     for title, rows in sheets:
         sheet = book.create_sheet(title)
+        sheet.sheet_state = dict(hidden).get(title, "visible")
         for row in rows:
             sheet.append(row)
     book.save(path("book.xlsx"))
@@ -208,12 +209,24 @@ def check_workbooks():
     expect_values(workbook(("A", [[1, 0.5, digits], [2, 1, 1]])), CURVE, "2 [deg], 3 [kN m]", [[0.5, 1], [1e6 * digits, 1e6]])
     # a formula that no program has computed
     formula = workbook(("A", [["phi [deg]", "M [Nmm]"], [0.5, 20], [1, "=2*B2"]]))
-    expect_refusal(formula, CURVE, "", ["line 3: no value in column 2"])
+    no_value = ": this formula has no value yet: save the workbook once with a program that computes it"
+    expect_refusal(formula, CURVE, "", ["line 3: '=2*B2' in column 2 is no number" + no_value])
+    formulas = workbook(("A", [["phi [deg]", "M [Nmm]"], [0.5, "=40*A2"], [1, "=50*A3"]]))
+    expect_refusal(formulas, CURVE, "", [NO_ROW, "; '=40*A2' in line 2" + no_value])
+    # beside the columns that are read
+    expect_values(workbook(("A", [["phi [deg]", "M [Nmm]", "x"], [0.5, 20, "=2*B2"], [1, 50, "=2*B3"]])), CURVE, "", TWO_ROWS)
     broken = [*rows, [datetime.time(12, 0, 3), 2, "OVERLOAD"]]
     expect_refusal(workbook(info, ("Data", [["Zeit", "Winkel [°]", "M [N m]"], *broken])), CURVE, "",
                    ["sheet 'Data': line 5: 'OVERLOAD' in column 3 is no number: remove this row"])
     expect_refusal(workbook(("Data", rows)), CURVE, "1 [deg], 2 [N m]", ["line 1: '12:00:00' in column 1", "time of day"])
     expect_refusal(workbook(info), CURVE, "", ["sheet 'Info': " + NO_ROW])
+    # what is hidden is not meant
+    sheets = [(name, [CURVE, *rows]) for name, rows in (("Old", [[1, 7], [2, 8]]), ("New", [[0.5, 20], [1, 50]]))]
+    for state in ("hidden", "veryHidden"):
+        expect_values(workbook(*sheets, hidden={"Old": state}), CURVE, "", TWO_ROWS)
+    expect_refusal(written(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + 504 * b"\0", "book.xls"), CURVE, "", ["(.xls)", "as CSV"])
+    ods = b"PK\x03\x04" + 26 * b"\0" + b"mimetypeapplication/vnd.oasis.opendocument.spreadsheet"
+    expect_refusal(written(ods, "book.ods"), CURVE, "", ["(.ods): save it as .xlsx or as CSV"])
     with open(workbook(info), "rb") as file:
         expect_refusal(written(file.read()[:500]), CURVE, "", ["this workbook cannot be read"])
 

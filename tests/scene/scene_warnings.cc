@@ -30,9 +30,8 @@ show(const std::vector<std::string> &overrides)
 int
 main()
 {
-  const std::string push  = "Chuck/Press/",
-                    twist = "Chuck/Rotation z/Value=",
-                    law   = "Interface/Friction ";
+  const std::string push = "Chuck/Press/", twist = "Chuck/Rotation z/Value=",
+                    law = "Interface/Friction ";
   show({"Title=nothing wrong"});
 
   show({"Bone/Young modulus=18"});
@@ -42,6 +41,28 @@ main()
   show({"Implant/Young modulus=1.13e11"});
   show({"Implant/Young modulus=30"});
   show({"Bone/Size=5, 12.5, 5"});
+
+  // a sleeve on a plate
+  for (const std::string entry : {"Title=pushed out",
+                                  "Chuck/Press/Value=-0.1 * t",
+                                  "Bone/Support radius=2"})
+    show({"Bone/Shape=sleeve",
+          "Bone/Outer radius=6",
+          "Bone/Cells=16, 4, 2",
+          "Bone/Element=quadratic",
+          "Bone/Support radius=3",
+          "Implant/Shape=pin",
+          "Implant/Cells=16, 1, 2",
+          "Implant/Element=quadratic",
+          entry});
+
+  // a coin in um
+  show({"Implant/Radius=2500",
+        "Implant/Height=3000",
+        "Bone/Size=12500, 12500, 5000",
+        "Interface/Law=adhesive",
+        "Chuck/Press/Control=force",
+        "Chuck/Press/Value=50 * min(t, 1)"});
 
   show({law + "coefficient broken=0.7"});
   show({law + "coefficient broken=0.7", law + "law=coulomb"});

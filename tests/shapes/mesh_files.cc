@@ -515,6 +515,22 @@ main()
   check_block(".msh 2.2", *read(gmsh_text(first_order, false), ".msh"));
   check_block(".msh 4.1", *read(gmsh_text(first_order, true), ".MSH"));
   check_block(".inp", *read(abaqus_text(first_order), ".inp"));
+  std::string written = abaqus_text(first_order);
+  const auto  in_abaqus =
+    [](std::string text, const std::string &from, const std::string &to) {
+      const std::size_t at = text.find(from);
+      AssertThrow(at != std::string::npos, dealii::ExcInternalError());
+      return text.replace(at, from.size(), to);
+    };
+  // a keyword over two lines, numbers of Fortran, what is known to be harmless
+  written =
+    in_abaqus(written, "*Node\n", "*Node,\n** all\n nset=all, system=r\n");
+  written = in_abaqus(written, "125, 1, 1, 1\n", "125, 1D0, 1.d+00, 0.1D1\n");
+  written = in_abaqus(written,
+                      "*Step",
+                      "*Solid section, elset=all,\nmaterial=bone\n1.,\n*Step");
+  written = in_abaqus(written, "*Static", "*Static\n*Cload\n1, 1, 1.");
+  check_block(".inp of another hand", *read(written, ".inp"));
   check_block(".vtk 3.0", *read(vtk_text(first_order, false), ".vtk"));
   check_block(".vtk 5.1", *read(vtk_text(first_order, true), ".vtk"));
   check_block("turned", *read(gmsh_text(turned(first_order), true), ".msh"));
@@ -668,6 +684,17 @@ main()
   refused("contact face in pieces", mesh);
 
   std::string abaqus = abaqus_text(first_order);
+  for (const std::string keyword : {"*System\n1, 0, 0\n",
+                                    "*Elgen\n1, 2, 1, 1\n",
+                                    "*Ngen\n1, 5, 1\n",
+                                    "*Include, input=a.inp\n",
+                                    "*Tie, name=a\nb, c\n",
+                                    "*Node,\nsystem=C\n",
+                                    "*Node, input=a.inp\n",
+                                    "*Element, type=C3D8, offset=2\n"})
+    refused(keyword.substr(0, keyword.find('\n')),
+            in_abaqus(abaqus, "*Node\n", keyword + "*Node\n"),
+            ".inp");
   refused("node twice", "*Node\n1, 0, 0, 0\n1, 0, 0, 1\n", ".inp");
   refused("no coordinates", "*Node\n1, 0, 0\n", ".inp");
   refused("tetrahedra", "*Element, type=C3D4\n1, 1, 2, 3, 4\n", ".inp");

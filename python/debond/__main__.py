@@ -13,6 +13,7 @@ import os
 import sys
 
 from .errors import InputError, RunError
+from .files import say
 
 PROCESSORS = os.cpu_count()
 #: Of each command what it is given, how many files, and its options with their values where they are not said: a text, a number
@@ -56,23 +57,23 @@ def _read(words, usage, n_files, options):
 def main(words) -> int:
     """Runs a command; returns the exit code: 1 if something wrong was given, 2 if it could not be finished or written."""
     if not words or words[0] not in COMMANDS:
-        print(__doc__, file=sys.stderr)
+        say(__doc__, sys.stderr)
         return 1
     try:
         files, options = _read(words[1:], *COMMANDS[words[0]])
         return importlib.import_module("debond." + words[0]).main(*files, options) or 0
     except ImportError as error:
         needed = PACKAGES.get(error.name, f"apt install python3-{error.name}")
-        print(f"debond: '{words[0]}' needs the module {error.name} of Python: {needed}", file=sys.stderr)
+        say(f"debond: '{words[0]}' needs the module {error.name} of Python: {needed}", sys.stderr)
         return 1
     except (InputError, OSError) as error:
-        print(error, file=sys.stderr)
+        say(error, sys.stderr)
         return 1
     except RunError as error:
-        print(error, file=sys.stderr)
+        say(error, sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("interrupted: the same command goes on, without --force", file=sys.stderr)
+        say("interrupted: the same command goes on, without --force", sys.stderr)
         return 130
 
 

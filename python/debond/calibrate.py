@@ -13,7 +13,7 @@ import _debond
 from . import intervals
 from .errors import RunError
 from .experiment import RIG
-from .files import csv_text, write_whole
+from .files import csv_text, say, write_whole
 from .fit import fit_problem, problem_of
 from .page import write_page_if_possible
 from .problem import Runs
@@ -54,6 +54,7 @@ def json_of(done) -> Dict[str, Any]:
     return plain({
         "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(),
         "seconds": done.seconds, "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure,
+        "failed": why_it_does_not_fit(done),
         "measured_values": len(problem.measured), "noise_is_known": problem.noise_is_known, "unknowns": unknowns,
         "rig": _rigs(done), "correlations": correlations, "curves": curves, "noise": noises,
         "taken_as_known": done.taken_as_known,
@@ -112,6 +113,19 @@ def save(done, directory):
         write_page_if_possible(directory)
 
 
+def _save_failure(problem, directory, why):
+    """What there is of a fit that has found nothing, so that its page says why."""
+    runs, nothing = problem.runs, dict.fromkeys(("unknowns", "correlations"), {})
+    write_whole(os.path.join(directory, "calibration.json"), json.dumps({
+        "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(), "seconds": None,
+        "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure, "failed": why,
+        "measured_values": len(problem.measured), **nothing, **dict.fromkeys(
+            ("rig", "curves", "noise", "taken_as_known", "optima", "cannot_be_told", "warnings", "candidates"), [])},
+        indent=2, ensure_ascii=False) + "\n")
+    if problem.values["Output / Report"] == "true":
+        write_page_if_possible(directory)
+
+
 def lines_of(done):
     """What the console says of a Fit."""
     width = max(map(len, done.names))
@@ -119,7 +133,7 @@ def lines_of(done):
     for j, (name, value) in enumerate(zip(done.names, done.values)):
         yield f"{name:{width}}  {value:<10.6g}  {interval_text(done, j)}"
     for m in done.misfits:
-        correlated = f", neighbours correlated by {m.noise.correlation:.3g}" if len(m.noise.phi) else ""
+        correlated = f", neighbours correlated by {m.noise.correlation:.3g}" if not m.noise.is_white else ""
         yield (f"{m.name}: e_mp {100 * m.e_mp:.3g} %, e_rel {100 * m.e_rel:.3g} %, residuals {100 * m.rms:.3g} % of the "
                f"largest value; noise {m.noise.name}{correlated}")
     if len(done.optima) > 1:
@@ -180,7 +194,11 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
                 "row before was, or are beyond what the scene comes to")
     say(f"{len(problem.measured)} measured values, {len(problem.unknowns.list)} unknowns")
     problem.runs = Runs(executor, threads, log)
-    done = fit_problem(problem, say)
+    try:
+        done = fit_problem(problem, say)
+    except RunError as error:
+        _save_failure(problem, directory, str(error))
+        raise
     save(done, directory)
     for line in lines_of(done):
         say(line)
@@ -219,6 +237,6 @@ def main(scene, options):
     scene._entries = _debond.changed(scene._entries, options["--set"], "--set")
     if options["--check"]:
         for line in check_lines(problem_of(scene)):
-            print(line)
+            say(line)
     else:
-        calibrate(scene, options["--threads"], options["--force"], say=lambda text: print(text, flush=True))
+        calibrate(scene, options["--threads"], options["--force"], say=say)

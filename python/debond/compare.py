@@ -15,6 +15,7 @@ from _debond import CurveComparison
 
 from .ensemble import torques_at
 from .errors import InputError
+from .files import say
 from .measured import read_measured, read_measured_and_say
 from .page_data import curve_file, curve_columns, read_json, read_table, rows_of, split_unit, varied_in
 
@@ -106,5 +107,5 @@ def compare(directory, curve, columns=()) -> Comparisons:
 def main(directory, curve, options):
     """The command; 2 if there was nothing to compare."""
     found = compare(directory, curve, options["--columns"])
-    print(found.text, end="")
+    say(found.text, end="")
     return 0 if any(one.rows_used for one in found.runs.values()) else 2

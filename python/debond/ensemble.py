@@ -12,7 +12,7 @@ from typing import Any, List, NamedTuple
 import numpy
 
 from .errors import InputError
-from .files import csv_text, write_whole
+from .files import csv_text, say, write_whole
 from .measured import read_measured
 from .page_data import curve_file, n_rows, read_table, varied_in
 
@@ -144,5 +144,5 @@ def ensemble(directory) -> Ensemble:
 def main(directory, options):
     """The command."""
     for note in write_ensemble(directory):
-        print(note)
-    print(f"Statistics over all seeds are in {directory}/ensemble.csv and ensemble_summary.csv")
+        say(note)
+    say(f"Statistics over all seeds are in {directory}/ensemble.csv and ensemble_summary.csv")

@@ -74,8 +74,8 @@ def _run_text(task):
 def run_many(scenes, executor=None, *, base=None, jobs: int = 1) -> List[Union[Result, Exception]]:
     """Runs many scenes: of each its Result, or the SceneError or RunError that it failed with, in their order.
 
-    scenes: Scene objects, or entries {"Subsection/Entry": value} that change `base`, the name of a scene; without it the
-    defaults. executor: of concurrent.futures; jobs: processes, if there is none."""
+    scenes: Scene objects, or entries {"Subsection/Entry": value} that change `base`, a Scene or the name of one; without
+    it the defaults. executor: of concurrent.futures; jobs: processes, if there is none."""
     scenes = list(scenes)  # they keep tables of laws
     results, tasks = {}, {}
     for i, one in enumerate(scenes):

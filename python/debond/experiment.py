@@ -86,6 +86,22 @@ class Experiment:
         rig = {key: float(every["Calibration / " + name]) for key, name in RIG.items()}
         return tuple((name, text) for name, text in entries.items() if not name.startswith("Calibration / ")), rig
 
+    def warnings(self, values):
+        """What the scene says of these values of the unknowns."""
+        entries = _debond.with_values(self.given, self.unknowns.entries(self.number, values))
+        return _debond.Scene(_debond.changed(entries, ["Output/Reference curve=none", "Output/Reference columns=auto"]), self.name,
+                             _debond.Team(0)).warnings
+
+    def halved(self, steps):
+        """Entries, as pairs, and ends of steps, that halve all steps of a run: those planned, or these, which adaptive ones have
+        chosen."""
+        if steps:
+            starts = [self.scene.sample_times[0], *(ends[-1] for ends in steps[:-1])]
+            return (), [numpy.unique(numpy.r_[ends, numpy.array([start, *ends[:-1]]) / 2 + numpy.array(ends) / 2]).tolist()
+                        for start, ends in zip(starts, steps)]
+        numbers = self.values["Load steps / Steps"].split(",")
+        return (("Load steps / Steps", ", ".join(str(2 * int(n)) for n in numbers)),), ()
+
     def _largest_shift(self):
         rigs = [self.changes(values)[1] for values in (self.unknowns.lower, self.unknowns.upper)]
         return sum(max(rig[key] for rig in rigs) for key in ("angle_offset", "slack"))
@@ -163,9 +179,9 @@ class Experiment:
             rows[column.key] = torque if column.is_torque else numpy.full(len(angles), force)
         return self.seen(rows, rig)
 
-    def task(self, values, steps):
-        """Of a run, for run_task()."""
-        changes, _ = self.changes(values)
+    def task(self, values, steps, more=()):
+        """Of a run, for run_task(). more: changes in addition, as pairs."""
+        changes = (*self.changes(values)[0], *more)
         columns = {self.over.key, "torque_Nmm", *(column.key for column in self.columns)}
         return self.text, self.name, changes, tuple(tuple(ends) for ends in steps), tuple(sorted(columns))
 

@@ -1,10 +1,22 @@
-"""Files of results, which other programs may read at any time."""
+"""Files of results, which other programs may read at any time, and what is said while they are made."""
 
 import csv
 import io
 import os
+import sys
 
 from .errors import RunError
+
+
+def say(text, file=None, end="\n") -> None:
+    """Prints a text at once. A pipe that nobody reads any more, as of `| head`, ends nothing: files count."""
+    file = file or sys.stdout
+    try:
+        print(text, file=file, end=end, flush=True)
+    except BrokenPipeError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, file.fileno())
+        os.close(nowhere)
 
 
 def write_whole(path, text: str) -> None:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any, Dict, List
 
 import numpy
+from scipy import stats
 
 import _debond
 
@@ -26,8 +27,10 @@ from .scene import Scene
 from .unknowns import Unknowns
 
 FOLLOWED, FOLLOWED_SLOWLY = 5, 2  # of the starts: runs take longer than closed forms
+CORRELATED = 0.99  # unknowns: more is said
 FEWEST_ROWS = 20  # independent ones: with fewer a misfit looks like noise
 UNLIKELY = 1e-6  # of noise.lack_of_fit(): then noise is no explanation
+LOCAL, FAR = 0.02, 7  # of the largest value, and of the standard deviation of noise: three rows in turn are never so far off
 
 
 def problem_of(scene, runs=None):
@@ -146,16 +149,23 @@ class Misfit:
     F: float  # of noise.lack_of_fit()
     chance: float  # of so large an F if the model is right
     smooth: float  # root mean square, over the largest value, of what does not change from row to row of the residuals
+    local: float  # by how much three neighbouring rows err alike at least, over the largest value, where that is most
+    local_over_noise: float  # the same over the noise
 
     @property
     def does_not_fit(self):
-        return self.chance < UNLIKELY and self.smooth > 1e-5
+        return (self.chance < UNLIKELY and self.smooth > 1e-5) or self.is_off_somewhere
+
+    @property
+    def is_off_somewhere(self):
+        """Whether a part of the curve is missed, as a rise is by a fit that the many rows of a plateau decide."""
+        return self.local > LOCAL and self.local_over_noise > FAR
 
     @property
     def is_ambiguous(self):
         """Whether what is left hangs together over so much of the curve that noise and a wrong model cannot be told apart."""
         hangs_together = self.effective_rows < FEWEST_ROWS or self.noise_over_largest > 2 * self.rms
-        return not self.does_not_fit and hangs_together and len(self.noise.phi) > 0 and self.smooth > 1e-5
+        return not self.does_not_fit and hangs_together and not self.noise.is_white and self.smooth > 1e-5
 
 
 def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=lambda text: None) -> "Fit":
@@ -237,9 +247,12 @@ class Fit:
         compared = _debond.CurveComparison([row, numpy.r_[0, curve[used]]], [row[1:], measured[used]])
         F, chance = noise.lack_of_fit(difference / series.scale, self.told.derivatives[series.slice], series.experiment.measured.parts)
         to_scale = numpy.median(1 / self.problem.weights[series.slice]) / series.scale
-        smooth = numpy.sqrt(max(0, rms**2 - own.variance * to_scale**2))
+        alike = numpy.lib.stride_tricks.sliding_window_view(difference, min(3, len(difference)))
+        local = numpy.where(abs(numpy.sign(alike).sum(axis=1)) == alike.shape[1], abs(alike).min(axis=1), 0).max() / series.scale
+        robust = numpy.median(abs(difference)) / stats.norm.isf(0.25) / series.scale  # rows that are far off do not count
+        smooth = numpy.sqrt(max(0, rms**2 - own.spectrum.min() * to_scale**2))
         return Misfit(series.name, compared.e_mp, compared.e_rel, rms, own, len(measured) / own.rows_per_value,
-                      own.sd * to_scale, F, chance, smooth)
+                      own.sd * to_scale, F, chance, smooth, local, local / max(robust, 1e-300))
 
     @property
     def e_rel(self):
@@ -264,7 +277,11 @@ class Fit:
         self.warnings += [f"the curves do not tell {name}: its interval is most of what is between its bounds"
                           for name, told in zip(self.names, self.is_told) if not told and name not in named]
         for misfit in self.misfits:
-            if misfit.does_not_fit:
+            if misfit.is_off_somewhere:
+                self.warnings.append(f"the model does not fit {misfit.name}: rows in turn are off by {100 * misfit.local:.2g} % of the largest "
+                                     f"value, {misfit.local_over_noise:.2g} times what most rows are: see where, in the residuals. The intervals "
+                                     "do not hold if the model is wrong")
+            elif misfit.does_not_fit:
                 self.warnings.append(f"the model does not fit {misfit.name}: beyond the noise the residuals have a smooth part of "
                                      f"{100 * misfit.smooth:.2g} % of the largest value (root mean square). The intervals take it for "
                                      "noise; they do not hold if the model is wrong")
@@ -272,6 +289,38 @@ class Fit:
                 self.warnings.append(f"neighbouring residuals of {misfit.name} hang together so far that noise and a model that is "
                                      "wrong cannot be told apart; the intervals may be too narrow")
         self._warn_of_noise()
+        self._warn_of_search()
+
+    def _shift(self, curve):
+        """By how much the unknowns would change, over the half widths of their intervals, if the curve differed by this (N)."""
+        told, result = self.told, numpy.zeros(len(self.values))
+        free = numpy.flatnonzero(told.free & numpy.isfinite(told.half_widths) & (told.half_widths > 0))
+        result[free] = numpy.linalg.lstsq(told.derivatives[:, free], self.problem.weights * curve, rcond=1e-7)[0] / told.half_widths[free]
+        return result
+
+    def _warn_of_search(self):
+        problem, told, names = self.problem, self.told, self.names
+        if problem.measure == "least squares" and self._best.converged:
+            shift = self._shift(problem.measured - self._best.curve)
+            for j in numpy.flatnonzero(abs(shift) > 0.5):
+                self.warnings.append(f"the search for {names[j]} stalled: the slopes of the curve ask for a step of {abs(shift[j]):.2g} half widths "
+                                     "of its interval, along which the curve comes no closer. A curve that jumps does that, as that of a soft "
+                                     "machine; try other starts, or Steps or a Tolerance that are finer")
+        for i, j in numpy.argwhere(numpy.triu(abs(told.correlations) > CORRELATED, 1)):
+            if numpy.isfinite(told.half_widths[[i, j]]).all() and not any(abs(c[[i, j]]).min() > 0.1 for c, _ in told.directions):
+                self.warnings.append(f"{names[i]} and {names[j]} have a correlation of {told.correlations[i, j]:.4f}: the curves tell little more "
+                                     "than one combination of both; fix one, or add a test that tells them apart")
+        try:
+            finer = problem.finer_curve(self.values)
+        except RunError:
+            finer = None
+        shift = numpy.zeros(len(names)) if finer is None else self._shift(finer - self._best.curve)
+        for j in numpy.flatnonzero(abs(shift) > 0.5):
+            self.warnings.append(f"steps of the load are too wide for this fit: with half of them {names[j]} changes by {abs(shift[j]):.2g} half "
+                                 "widths of its interval; give more Load steps / Steps, or a smaller Tolerance")
+        for experiment in problem.done:
+            said = (experiment.warnings(problem.unknowns.starts), experiment.warnings(self.values))
+            self.warnings += [f"with the values that were found {text}" for text in said[1] if text not in said[0]]
 
     def _warn_of_noise(self):
         rms = sorted((misfit.rms, misfit.name) for misfit in self.misfits)

@@ -4,10 +4,11 @@ With derivatives J (N x k), weighted, and residuals of covariance V the least sq
 
     C = (J'J)^-1 J'V J (J'J)^-1,
 
-whether the noise is white or not. V is estimated from the residuals (noise.py). An interval ends where the sum of squares, with
-the other unknowns at their best, has grown by t^2 C_jj/(J'J)^-1_jj, t of Student's distribution: for a curve that is linear in
-the unknowns that is +- t sqrt(C_jj). Where it is not, J is that of the end, if a closed form
-gives it: the question is what the noise would do if the truth were there. Degrees of freedom are Satterthwaite's.
+whether the noise is white or not. V is estimated from the residuals (noise.py), not as one but as many with their weights: the
+error of an estimate is a mixture of Student's distributions, whose quantile is t sqrt(C_jj), C_jj that of the mean spectrum. An
+interval ends where the sum of squares, with the other unknowns at their best, has grown by t^2 C_jj/(J'J)^-1_jj: for a curve
+that is linear in the unknowns that is +- t sqrt(C_jj). Where it is not, J is that of the end, if a closed form gives it: the
+question is what the noise would do if the truth were there.
 """
 
 from dataclasses import dataclass, field
@@ -33,7 +34,7 @@ class Told:
     covariance: numpy.ndarray  # k x k; of what cannot be told as large as rounding lets it be
     covariance_told: numpy.ndarray  # k x k; without what cannot be told
     half_widths: numpy.ndarray  # k: t sqrt(C_jj), infinite if nothing tells it
-    quantiles: numpy.ndarray  # k: t
+    quantiles: numpy.ndarray  # k: t, so that t sqrt(C_jj) is the half width
     lower: numpy.ndarray = None  # k: ends of the intervals
     upper: numpy.ndarray = None
     directions: list = field(default_factory=list)  # (changes of the unknowns, largest change of a curve over its scale)
@@ -74,13 +75,9 @@ def noises_of(problem, residuals, J):
     """A Noise for each series, of residuals over their weights. If the scene states the noise its size is that."""
     result = []
     for series in problem.series:
-        rows, parts = J[series.slice], series.experiment.measured.parts
-        if problem.noise_is_known and len(rows) - rows.shape[1] < 8:  # too few to tell whether they hang together
-            own = noise.Noise(numpy.zeros(0), 1.0, parts, 1e6, numpy.full((1, 1), 0.5), numpy.zeros(0))
-        else:
-            own = noise.estimate(residuals[series.slice], rows, parts)
+        own = noise.estimate(residuals[series.slice], J[series.slice], series.experiment.measured.parts)
         if problem.noise_is_known:
-            own.variance = own.variance / own.sd**2
+            own.variances, own.freedom = numpy.ones(len(own.weights)), 1e6
         result.append(own)
     return result
 
@@ -97,33 +94,18 @@ def tell(problem, best, derivatives):
     J = derivatives  # those of unknowns at bounds, too: they may go back from there as others change
     noises = noises_of(problem, residuals, J)
     unlimited, finite, told = inverse(J)
-    k, parts = len(at), _sandwich(problem, J, finite, noises)
-    quantiles, half_widths = numpy.empty(k), numpy.full(k, numpy.inf)
-    variance = sum(parts)
-    for j in range(k):
-        freedom = _freedom(problem, J, finite[:, j], noises, [part[j, j] for part in parts])
-        quantiles[j] = stats.t.ppf(0.5 + CONFIDENCE / 2, freedom)
-        if told[j]:
-            half_widths[j] = quantiles[j] * numpy.sqrt(max(0, variance[j, j]))
-    whole = variance + numpy.median([own.variance for own in noises]) * (unlimited - finite)
+    k, variance = len(at), sum(_sandwich(problem, J, finite, noises))
+    quantiles, half_widths = numpy.full(k, stats.norm.isf(0.5 * (1 - CONFIDENCE))), numpy.full(k, numpy.inf)
+    for j in numpy.flatnonzero(told):
+        # of independent errors squares of half widths add up
+        half_widths[j] = numpy.linalg.norm([own.half_width(J[series.slice] @ finite[:, j], CONFIDENCE)
+                                            for series, own in zip(problem.series, noises)])
+        if variance[j, j] > 0:
+            quantiles[j] = half_widths[j] / numpy.sqrt(variance[j, j])
+    whole = variance + numpy.median([own.sd**2 for own in noises]) * (unlimited - finite)
     result = Told(J, noises, ~pushed, whole, variance, half_widths, quantiles, at - half_widths, at + half_widths)
     _find_directions(problem, result, best.values, at, residuals)
     return result
-
-
-def _freedom(problem, J, row, noises, variances):
-    """Degrees of freedom of sum(variances), each from the noise of its series."""
-    total, spread = sum(variances), 0.0
-    if problem.noise_is_known or not total > 0:
-        return 1e6
-    for series, own, part in zip(problem.series, noises, variances):
-        if part > 1e-3 * total:
-            direction = J[series.slice] @ row
-            freedom = noise.freedom_of(own, lambda n: direction @ n.covariance_times(direction[:, None])[:, 0])
-            # no more than independent values are left, wherever the search for the noise has ended
-            freedom = min(freedom, max(1, len(direction) / own.rows_per_value - numpy.count_nonzero(J.any(axis=0))))
-            spread += (part / total) ** 2 * 2 / freedom
-    return 2 / max(spread, 2e-6)
 
 
 def sizes_of(unknowns, values):
@@ -348,12 +330,14 @@ def bootstrap(problem, best, derivatives, generator, n_samples=200, n_iterations
     residuals, J = weights * (problem.measured - best.curve), (weights / problem.weights)[:, None] * derivatives
     samples, n = numpy.empty((n_samples, J.shape[1])), numpy.count_nonzero(weights)
     residuals *= numpy.sqrt(n / max(1, n - J.shape[1]))  # what the fit has taken with it
+    blocks = []  # of each curve its rows, and the length of a block
+    for series in problem.series:
+        rows = numpy.arange(series.slice.start, series.slice.stop)[weights[series.slice] > 0]
+        own = noise.estimate(residuals[rows], J[rows], [slice(0, len(rows))])
+        blocks.append((rows, min(len(rows), max(1, round(len(rows) ** (1 / 3)), round(2 * own.rows_per_value)))))
     for sample in range(n_samples):
         drawn = numpy.zeros(len(residuals))
-        for series in problem.series:
-            rows = numpy.arange(series.slice.start, series.slice.stop)[weights[series.slice] > 0]
-            own = noise.estimate(residuals[rows], J[rows], [slice(0, len(rows))])
-            length = min(len(rows), max(1, round(len(rows) ** (1 / 3)), round(2 * own.rows_per_value)))
+        for rows, length in blocks:
             firsts = generator.integers(0, len(rows) - length + 1, -(-len(rows) // length))
             drawn[rows] = residuals[rows[(firsts[:, None] + numpy.arange(length)).ravel()[:len(rows)]]]
         change = numpy.zeros(J.shape[1])
@@ -365,10 +349,14 @@ def bootstrap(problem, best, derivatives, generator, n_samples=200, n_iterations
 
 
 def with_test(problem, told, derivatives):
-    """Half widths (k) if a test with these derivatives (rows x k), over its noise, were done as well: with the noise that the
-    fit leaves, as far as it hangs together."""
-    scales = [own.sd * numpy.sqrt(own.rows_per_value) for own in told.noises]
-    rows = [numpy.where(told.free, told.derivatives[series.slice], 0) / scale for series, scale in zip(problem.series, scales)]
-    rows.append(numpy.where(told.free, derivatives, 0) / numpy.sqrt(numpy.mean(numpy.square(scales))))
-    _, finite, known = inverse(numpy.vstack(rows))
+    """Half widths (k) if a test with these derivatives (rows x k), over its noise, were done as well: with the noise that the fit
+    leaves, as far as it hangs together. What does so over more than a tenth of the rows is rather what the model misses."""
+    scales = [own.sd * numpy.sqrt(min(own.rows_per_value, max(1, 0.1 * len(own.spectrum)))) for own in told.noises]
+    sd = numpy.sqrt(numpy.diag(told.covariance_told))
+    sd[sd == 0] = 1
+    variances, directions = numpy.linalg.eigh(told.covariance_told / numpy.outer(sd, sd))
+    known = variances > 1e-12 * variances.max(initial=0)
+    before = (directions[:, known] / numpy.sqrt(variances[known])).T / sd  # its products are the inverse of the covariance
+    rows = numpy.vstack([before, derivatives / numpy.sqrt(numpy.mean(numpy.square(scales)))])
+    _, finite, known = inverse(numpy.where(told.free, rows, 0))
     return numpy.where(told.free, numpy.where(known, told.quantiles * numpy.sqrt(numpy.diag(finite)), numpy.inf), 0)

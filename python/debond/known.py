@@ -5,6 +5,7 @@ import numpy
 
 import _debond
 
+from . import noise
 from .errors import RunError, SceneError
 from .experiment import RIG, Experiment
 from .measurement import given
@@ -13,8 +14,10 @@ from .measurement import given
 _FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Outer radius", "Interface / Interference", "Bone / Young modulus", "Implant / Young modulus",
             "Interface / Normal stiffness", "Interface / Tangential stiffness", "Interface / Friction coefficient broken",
             "Interface / Friction coefficient unbroken", "Interface / Characteristic slip distance", "Interface / Transition factor",
+            "Interface / Bonding / Bonding degree", "Interface / Bonding / Bonded fraction", "Closed form / Normal stiffness",
+            "Closed form / Torsional stiffness", "Chuck / Rotation z / Stiffness", "Chuck / Translation z / Stiffness",
             "Chuck / Press / Value", "Chuck / Translation z / Value"]
-_BONDING = "Interface / Bonding / Bonding degree"
+_SHARES = ("Bonding degree", "Bonded fraction")  # at most 1
 
 
 def _unit_of(entry, values):
@@ -36,10 +39,10 @@ def _changes(fit):
         text = given(values.get(entry, ""))
         if entry in held or not text or _is_zero(text):
             continue
-        changed = f"({text}) * 1.01" if "Chuck" in entry or entry.endswith("Interference") else repr(1.01 * float(text))
-        result.append((entry, text, _unit_of(entry, values), "+1 %", changed))
-    if _BONDING not in held and values.get(_BONDING) == "1":
-        result.append((_BONDING, "1", "", "-1 %", "0.99"))
+        percent = -1 if entry.endswith(_SHARES) and 1.01 * float(text) > 1 else 1
+        is_expression = entry.endswith(("Value", "Interference"))
+        changed = f"({text}) * 1.01" if is_expression else repr((1 + 0.01 * percent) * float(text))
+        result.append((entry, text, _unit_of(entry, values), f"{percent:+} %", changed))
     curve = fit._best.curve[problem.series[0].slice]
     torque = curve[numpy.argmax(abs(curve))]
     half = numpy.argmax(abs(curve) >= 0.5 * abs(torque))  # on the way up, where angles matter
@@ -85,17 +88,27 @@ def _change_of_curve(fit, entry, text):
     return None if base is None else numpy.concatenate(curves) - base
 
 
+def _slopes(fit, free):
+    """Of the curve by the unknowns `free`, over the weights, along changes of 1 % as those of the table: where a curve jumps, a change
+    moves the jump, and only an equal one of another number makes up for it."""
+    problem = fit.problem
+    try:
+        return problem.weights[:, None] * problem.derivatives(fit.values, not problem.why_no_closed_form, free, 1e-2)
+    except RunError:
+        return fit.told.derivatives[:, free]
+
+
 def table_of(fit):
     """A list of {"entry", "value", "unit", "change", "effect": {unknown: by how many % of itself}}."""
     problem, told = fit.problem, fit.told
     usable = told.free & numpy.isfinite(told.half_widths)
-    table = []
+    J, table = _slopes(fit, numpy.flatnonzero(usable)), []
     for entry, value, unit, change, text in _changes(fit):
         change_of_curve = _change_of_curve(fit, entry, text)
         if change_of_curve is None:
             continue
         moved = numpy.zeros(len(fit.values))
-        moved[usable] = numpy.linalg.lstsq(told.derivatives[:, usable], -problem.weights * change_of_curve, rcond=1e-7)[0]
+        moved[usable] = numpy.linalg.lstsq(J, -problem.weights * change_of_curve, rcond=1e-7)[0]
         at = problem.unknowns.to_search(fit.values)
         other = problem.unknowns.values_of(at + moved)
         with numpy.errstate(over="ignore"):
@@ -126,14 +139,14 @@ def _slack_remark(fit, series):
     x, torque = x[:n], torque[:n]
     places = numpy.linspace(0, x[-1], 101)[:-5]
 
-    def squares(s):
+    def rest(s):
         hinge = numpy.maximum(0, x - s)
-        return numpy.sum((torque - hinge * (hinge @ torque) / (hinge @ hinge)) ** 2)
+        return torque - hinge * (hinge @ torque) / (hinge @ hinge)
 
-    costs = numpy.array([squares(s) for s in places])
+    costs = numpy.array([numpy.sum(rest(s) ** 2) for s in places])
     best = int(numpy.argmin(costs))
-    index = fit.problem.series.index(series)
-    noise_variance = costs[best] / max(1, n - 2) * fit.told.noises[index].rows_per_value
+    own = noise.estimate(rest(places[best]), numpy.maximum(0, x - places[best])[:, None], [slice(0, n)])
+    noise_variance = costs[best] / max(1, n - 2) * own.rows_per_value
     if best < 2 or costs[0] - costs[best] < 25 * noise_variance:
         return ""
     s = places[best]

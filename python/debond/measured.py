@@ -20,6 +20,7 @@ from typing import List, Mapping, Sequence, Tuple, Union
 import numpy
 
 from .errors import InputError, shortened
+from .files import say
 from .layout import Table, filled, remark_on, value_of, with_plain_marks
 from .units import EXAMPLES, UNITS, unit_in, why_ambiguous
 
@@ -217,8 +218,7 @@ def main(filename: str, options: Mapping[str, str]) -> int:
         if error.why is None or options["--entry"] == "FILE":
             raise
         # the program asks, and says it with the place of the entry
-        print(error.entry, error.value or "", error.why, sep="\n")
+        say("\n".join((error.entry, error.value or "", error.why)))
         return 1
-    for row in [names, *(map(repr, row) for row in values.T.tolist())]:
-        print(",".join(row))
+    say("\n".join(",".join(row) for row in [names, *(map(repr, row) for row in values.T.tolist())]))
     return 0

@@ -141,8 +141,10 @@ def context_of_calibration(directory):
     json = read_json(os.path.join(directory, "calibration.json"))
     title, n = json["title"], json["evaluations"]
     reason = f"{json['measured_values']} measured values, " + (f"{n} evaluations" if n else "closed form")
-    return {"title": f"{title}: calibration" if title else f"Calibration in {directory}", "finished": True,
-            "reason": reason,
+    misfits = [one["curve"] for one in json["curves"] if not one["fits"]]
+    problem = "failed" if json.get("failed") else "does not fit" if misfits else ""
+    return {"title": f"{title}: calibration" if title else f"Calibration in {directory}", "finished": True, "problem": problem,
+            "reason": f"{json.get('failed')} ({reason})" if json.get("failed") else reason,
             "warnings": unique([*json["cannot_be_told"], *json["warnings"]]), "json": json, "names": list(json["unknowns"]),
             "fits": fits_of(directory), "origin": origin_of(json, json["seconds"]),
             "entries": read_entries(os.path.join(directory, "parameters.prm")), "files": files_of(directory)}

@@ -71,9 +71,12 @@ def context_of_specimens(directory):
     unknowns = list(dict.fromkeys(row["unknown"] for row in parameters if row["unknown"]))
     of_specimens = {name: [row for row in parameters if row["specimen"] == name] for name in names}
     title, n = about.get("title", ""), len(names)
+    misfits = [name for name in names if name not in failed and of_specimens[name][0]["fits"] != "true"]
+    problem = f"{len(failed)} failed" if failed else f"{len(misfits)} do not fit" if misfits else ""
     units = {row["unknown"]: row["unit"] for row in parameters}
-    return {"title": f"{title}: {n} specimens" if title else f"{n} specimens in {directory}", "finished": not failed,
-            "reason": f"{n - len(failed)} of {n} specimens are fitted",
+    return {"title": f"{title}: {n} specimens" if title else f"{n} specimens in {directory}", "finished": True, "problem": problem,
+            "reason": f"{n - len(failed)} of {n} specimens are fitted" + (
+                f"; the model does not fit {len(misfits)} of them" if misfits else ""),
             "warnings": [f"{name}: {why}" for name, why in failed.items()],
             "specimens": of_specimens, "failed": failed,
             "with_page": [name for name in names if os.path.exists(os.path.join(directory, name, "report.html"))],

@@ -170,6 +170,16 @@ class Problem:
             owners.append(None if group is None else self._seen(values, [next(rows) for _ in group]))
         return owners
 
+    def finer_curve(self, values):
+        """The predicted values (N) of runs with steps half as wide; None for closed forms. Raises RunError."""
+        if not any(e.is_finite_elements for e in self.done):
+            return None
+        tasks = []
+        for experiment in self.done:
+            more, steps = experiment.halved(self.steps[id(experiment)]) if experiment.is_finite_elements else ((), ())
+            tasks.append(experiment.task(values, steps, more))
+        return self._seen(values, self.runs.rows(tasks))
+
     def _failed(self, error):
         self.runs.n_failures += 1
         self.runs.last_failure = str(error)
@@ -188,20 +198,20 @@ class Problem:
         except RunError as error:
             self._failed(error)
 
-    def ends(self, values, j, closed):
-        """Where differences by the unknown `j` are taken: to both sides, but not over its bounds. The rig enters without the
-        rounding of iterations."""
+    def ends(self, values, j, closed, share=0):
+        """Where differences by the unknown `j` are taken: to both sides, by this share of its value if there is one, but not over
+        its bounds. The rig enters without the rounding of iterations."""
         unknown = self.unknowns.list[j]
         is_exact = closed or not any(experiment.changes_model[j] for experiment in self.done)
-        h = (1e-5 if is_exact else 1e-3) * max(abs(values[j]), 1e-2 * (unknown.upper - unknown.lower))
+        h = (share or (1e-5 if is_exact else 1e-3)) * max(abs(values[j]), 1e-2 * (unknown.upper - unknown.lower))
         ends = [values.copy(), values.copy()]
         ends[0][j], ends[1][j] = max(values[j] - h, unknown.lower), min(values[j] + h, unknown.upper)
         return ends
 
-    def derivatives(self, values, closed, free=None):
-        """Of the predicted values by what is searched (N x k), by central differences. Raises RunError."""
+    def derivatives(self, values, closed, free=None, share=0):
+        """Of the predicted values by what is searched (N x k), by central differences, see ends(). Raises RunError."""
         free = range(len(values)) if free is None else free
-        places = [end for j in free for end in self.ends(values, j, closed)]
+        places = [end for j in free for end in self.ends(values, j, closed, share)]
         curves = self.curves(places, closed)
         if any(curve is None for curve in curves):
             raise RunError(self.runs.last_failure)

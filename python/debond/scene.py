@@ -1,6 +1,7 @@
 """Scenes, and runs of them in memory."""
 
 import hashlib
+import io
 import json
 import os
 import sys
@@ -100,7 +101,8 @@ def sample_law(law: Callable[[float], float], longest: float, tolerance: float =
 
 
 class Scene:
-    """What is simulated: the file `filename`, or `text` in the language of scenes, or neither: the defaults.
+    """What is simulated: the file `filename`, or another Scene, or `text` in the language of scenes, or neither: the defaults.
+    Scenes can be copied and pickled.
 
     entries: {"Subsection/Entry": value} in addition or instead; numbers, truth values, text, or sequences for lists.
     law: (function, distance): phi over the sliding distance [mm], falling from 1, constant beyond `distance` [mm]. It is
@@ -115,26 +117,51 @@ class Scene:
         if filename is not None and text:
             raise SceneError("a scene is either a file or a text, not both")
         overrides = [f"{name}={_text(value)}" for name, value in (entries or {}).items()]
-        self._name = os.fspath(filename) if filename is not None else "scene"
-        self._tables = []  # files live as long as the scene
+        base = filename if isinstance(filename, Scene) else None
+        self._name = base._name if base else os.fspath(filename) if filename is not None else "scene"
+        self._tables = list(base._tables) if base else []  # files live as long as a scene that needs them
         if law is not None:
             if not (isinstance(law, (tuple, list)) and len(law) == 2 and callable(law[0])):
                 raise SceneError(f"law: {law!r:.60}: expected a pair, (function, distance [mm]): phi over the sliding "
                                  "distance, and the distance after which it is constant")
             overrides += ["Interface/Friction law=table", "Interface/Friction table=" + self._write_table(*law)]
         entries = []
-        if filename is not None:
+        if base:
+            entries = base._entries
+        elif filename is not None:
             entries = _debond.read_file(self._name)
         elif text:
             entries = _debond.read_text(text, "scene")
         self._entries = _debond.changed(entries, overrides)
 
     def _write_table(self, law, longest) -> str:
+        text = io.StringIO()
+        numpy.savetxt(text, numpy.column_stack(sample_law(law, longest)), "%.17g", ",", header="slip_mm,phi", comments="")
+        return self._new_table(text.getvalue())
+
+    def _new_table(self, text) -> str:
         directory = tempfile.TemporaryDirectory(prefix="debond-")
         self._tables.append(directory)
         name = os.path.join(directory.name, "law.csv")
-        numpy.savetxt(name, numpy.column_stack(sample_law(law, longest)), "%.17g", ",", header="slip_mm,phi", comments="")
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(text)
         return name
+
+    def __getstate__(self):
+        tables = {}
+        for directory in self._tables:
+            name = os.path.join(directory.name, "law.csv")
+            with open(name, encoding="utf-8") as file:
+                tables[name] = file.read()
+        return self._entries, self._name, tables
+
+    def __setstate__(self, state):
+        self._entries, self._name, tables = state
+        self._tables = []
+        entry = "Interface / Friction table"
+        for name, text in tables.items():
+            if any((own.name, own.value) == (entry, name) for own in self._entries):
+                self._entries = _debond.with_values(self._entries, {entry: self._new_table(text)})
 
     def _read(self, team):
         return _debond.Scene(self._entries, self._name, team)

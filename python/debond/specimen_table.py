@@ -24,6 +24,7 @@ from .unknowns import Unknowns
 OWN = ("specimen", "curve", "group")
 ALL = "all"  # what the mean of all groups is called
 _NOT_HERE = ("Task", "Output / Directory", "Output / Reference curve")
+FILES = ("parameters.csv", "pooled.csv", "specimens.json", "report.html")  # beside the directories of specimens
 _NAME = re.compile(r"[^\W_][^/\\:*?\"<>|\x00-\x1f]{0,99}")
 
 
@@ -94,6 +95,8 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
     name, group = fields["specimen"], fields.get("group", "")
     if not _NAME.fullmatch(name) or name.endswith("."):
         refuse("specimen", "a name for a directory: a letter or a digit, then at most 99 signs but / \\ : * ? \" < > |")
+    if name.lower() in FILES:
+        refuse("specimen", f"another name: {name.lower()} is a file of the results")
     if not fields["curve"]:
         refuse("curve", "the file of a measured curve")
     if group.lower() == ALL:

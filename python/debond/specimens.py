@@ -21,7 +21,7 @@ import _debond
 
 from .errors import InputError, RunError
 from .executors import results_of
-from .files import csv_text, write_whole
+from .files import csv_text, say, write_whole
 from .page import write_page_if_possible
 from .pooling import pool
 from .scene import Scene
@@ -141,8 +141,8 @@ def _fit_all(specimens, scene, table, directory, executor, n_jobs, say):
 def main(template, table, options) -> int:
     """The command; returns the exit code."""
     found = fit_specimens(template, table, options["--out"] or None, jobs=options["--jobs"],
-                          say=lambda text: print(text, flush=True))
-    print(f"Results are in {found.directory}/parameters.csv, pooled.csv and report.html")
+                          say=say)
+    say(f"Results are in {found.directory}/parameters.csv, pooled.csv and report.html")
     for name, why in found.failures.items():
-        print(f"{name} failed: {why}", file=sys.stderr)
+        say(f"{name} failed: {why}", sys.stderr)
     return 2 if found.failures else 0

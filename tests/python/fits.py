@@ -13,7 +13,7 @@ import warnings
 from types import SimpleNamespace
 
 import numpy
-from scipy import linalg, signal
+from scipy import signal, stats
 
 import debond
 from debond import intervals, noise
@@ -134,11 +134,15 @@ def correlated(generator, n, rho):
 
 def check_noise():
     """Of the noise itself: against the whole covariance matrix, and against curves that were drawn."""
-    phi, n = numpy.array([0.9, -0.3, 0.2]), 60
-    own = noise.Noise(phi, 2.0, [slice(0, 25), slice(25, n)])
+    n, parts = 60, [slice(0, 25), slice(25, 60)]
+    spectra = numpy.exp(numpy.random.default_rng(2).standard_normal((1, n)))
+    own = noise.Noise(parts, spectra / spectra.mean(), numpy.ones(1), numpy.array([2.0]), 50, False)
     covariance = numpy.zeros((n, n))
-    for part in own.parts:
-        covariance[part, part] = linalg.toeplitz(2 * noise.autocovariance(phi, part.stop - part.start))
+    for part in parts:
+        m = part.stop - part.start
+        waves = numpy.cos(numpy.pi * (numpy.arange(m)[:, None] + 0.5) * numpy.arange(m) / m) * numpy.sqrt(2 / m)
+        waves[:, 0] = numpy.sqrt(1 / m)
+        covariance[part, part] = waves @ (own.spectrum[part, None] * waves.T)
     rows = numpy.random.default_rng(1).standard_normal((n, 3))
     white, log = own.whitened(rows)
     report("whitened rows are those of the covariance", numpy.allclose(white.T @ white, rows.T @ numpy.linalg.solve(covariance, rows)))
@@ -146,6 +150,11 @@ def check_noise():
     report("its product", numpy.allclose(own.covariance_times(rows), covariance @ rows))
     spread = numpy.cov(numpy.array([own.draw(numpy.random.default_rng(seed)) for seed in range(4000)]).T)
     report("noise that is drawn has this covariance", abs(spread - covariance).max() < 0.12 * covariance.max())
+    sd = numpy.sqrt(rows[:, 0] @ covariance @ rows[:, 0])
+    report("half width: Student's quantile times the standard deviation", abs(own.half_width(rows[:, 0], 0.95) / sd / stats.t.ppf(0.975, 50) - 1) < 1e-5)
+    # of two kinds, one of ten times the standard deviation: a quarter of all draws, of which 90 % lie within
+    two = noise.Noise([slice(0, n)], numpy.ones((2, n)), numpy.array([0.75, 0.25]), numpy.array([1.0, 100.0]), 1e6, False)
+    report("half width of two kinds", abs(two.half_width(numpy.eye(n)[0], 0.95) / (10 * stats.norm.isf(0.1)) - 1) < 1e-4)
     # five smooth columns take some of the noise with them, which REML knows
     place = numpy.linspace(0, 1, 500)
     columns = numpy.cos(numpy.pi * place[:, None] * numpy.arange(5))
@@ -155,6 +164,16 @@ def check_noise():
         residuals = drawn - columns @ numpy.linalg.lstsq(columns, drawn, rcond=None)[0]
         found.append(noise.estimate(residuals, columns, [slice(0, 500)]).correlation)
     report("correlation of noise, 0.9, from what a fit has left: 0.9 +- 0.01", abs(numpy.mean(found) - 0.9) < 0.01, numpy.mean(found))
+    # rows whose neighbours err alike are worth no more than those of AR(1), which the page has
+    worst = -numpy.inf
+    for seed in range(60):
+        generator = numpy.random.default_rng(seed)
+        drawn = signal.lfilter([1], [1, *generator.uniform(-1, 0.2, 2) * 0.6], generator.standard_normal(300)) + generator.uniform(0, 2) * numpy.sin(
+            generator.uniform(0.05, 0.5) * numpy.arange(300))
+        one = noise.estimate(drawn, columns[:300], [slice(0, 300)])
+        most = max(2, 300 * (1 - one.correlation) / (1 + one.correlation))
+        worst = max(worst, 300 / one.rows_per_value / most)
+    report("effective rows are at most n (1 - phi) / (1 + phi), to 2 %, or two", worst < 1.02, worst)
 
 
 def check_intervals():
@@ -178,6 +197,33 @@ def check_intervals():
         for name, share in zip(("mu_ub", "a_s", "b_s", "eps_n", "eps_t", "the band of the curve"), [*held / n_seeds, in_band / n_seeds]):
             report(f"correlation {rho}: {name} is held by its interval as often as chance allows", share >= least, share)
         report(f"correlation {rho}: a model that is right is hardly ever said not to fit", flags <= 0.01 * n_seeds, flags)
+
+
+def check_coverage():
+    """How often intervals hold the truth: white noise, AR(1) of 0.8, and a drift that hangs together over the whole test, in a fit
+    with the offset that a drift makes; 2000 draws nightly."""
+    n_draws, n = 2000 if n_seeds >= 100 else 10 * n_seeds, 500
+    rows = debond.Scene(None, {**TRUTH, "Load steps/Steps": f"1, {n}"}, text=SCENE).run().rows
+    torque = rows["torque_Nmm"][rows["angle_deg"] > 0]
+    write("coverage.csv", {"angle_deg": rows["angle_deg"][rows["angle_deg"] > 0], "torque_Nmm": torque})
+    entries = {**TWO, I + "Friction coefficient broken": "<<mu_b: 0.4 in 0.1..0.8>>"}
+    truth = {"mu_b": 0.4, "mu_ub": 0.58, "a_s": 0.022, "offset": 0.0}
+    kinds = {"white noise": lambda generator: generator.standard_normal(n), "AR(0.8)": lambda generator: correlated(generator, n, 0.8),
+             "drift": lambda generator: generator.standard_normal(n) + 2 * correlated(generator, n, 1 - 1 / n)}
+    for kind, draw in kinds.items():
+        more = {"Torque offset": "<<offset: 0 in -20..20>>"} if kind == "drift" else {}
+        problem = fits.problem_of(scene_of(entries, "coverage.csv", **more))
+        values = numpy.array([truth[name] for name in problem.unknowns.names])
+        problem.settle(values)
+        held, right = numpy.zeros(len(values)), problem.curves([values], True)[0]
+        for seed in range(n_draws):
+            problem.measured = right + 0.01 * torque.max() * draw(numpy.random.default_rng(seed))
+            found = fits.Fit(problem, [problem.minimise(values, True)], True, 0)
+            held += (found.lower <= values) & (values <= found.upper)
+        # nightly the shares that are asked for; of fewer draws what chance allows
+        wide = 0.02 if n_draws >= 2000 else 3.3 * numpy.sqrt(0.05 * 0.95 / n_draws)
+        for name, share in zip(problem.unknowns.names, held / n_draws):
+            report(f"{kind}: 95 % intervals of {name} hold the truth in 95 +- {100 * wide:.2g} % of {n_draws} draws", abs(share - 0.95) <= wide, share)
 
 
 def check_words():
@@ -206,6 +252,78 @@ def check_words():
            (far, rms))
     report("slack at the start is seen, and proposed", says(other, "Calibration / Slack = <<0.3"), other.warnings)
     report("no slack where there is none", not says(fit(TWO, "noise.csv"), "Slack"))
+
+
+def check_exact_data():
+    """Rows that a line between the steps of a run gives, within 0.1 % of the curve: noise on top makes no interval narrower, and
+    what the fit leaves is not taken for more than it is."""
+    clean = measured("clean.csv")
+    angle = numpy.linspace(0.06, 9.9, 120)
+    torque, unit = numpy.interp(angle, clean["angle_deg"], clean["torque_Nmm"]), numpy.random.default_rng(4).standard_normal(120)
+    widths, found = [], None
+    for noise_of_rows in (0, 1e-5, 1e-4, 1e-3, 1e-2):
+        write("steps.csv", {"angle_deg": angle, "torque_Nmm": torque + noise_of_rows * torque.max() * unit})
+        one = fit({**TWO, I + "Friction coefficient broken": "<<mu_b: 0.3 in 0.1..0.8>>"}, "steps.csv", Starts=1)
+        widths.append(one.told.half_widths)
+        found = found or one
+    widths = numpy.array(widths)
+    report("exact data give no wider intervals than slightly noisy ones, to 5 %", (widths[0] <= 1.05 * widths[1:]).all(), widths)
+    misfit = found.misfits[0]
+    report("nor a noise that is more than twice what the fit leaves", misfit.noise_over_largest < 2 * misfit.rms, misfit)
+
+
+def check_constant():
+    """A sensor at its limit, or an implant that is not bonded."""
+    write("constant.csv", {"angle_deg": numpy.linspace(0.05, 9.9032, 120), "torque_Nmm": numpy.full(120, 30.0)})
+    scene = {"Closed form/Torsional stiffness": 300, "Closed form/Normal stiffness": 500, "Chuck/Press/Control": "force",
+             "Chuck/Press/Value": "50 * min(t, 1)", I + "Friction coefficient broken": "<<mu_b: 0.45 in 0.1..1>>",
+             I + "Friction coefficient unbroken": "<<mu_ub: 0.6 in 0.1..1.5>>", I + "Characteristic slip distance": "<<a_s: 0.03 in 0.002..0.2 log>>"}
+    found = fit(scene, "constant.csv")
+    report("a torque that is constant: what it does not tell is told", not found.is_told[found.names.index("a_s")] and found.warnings != [], found.warnings)
+
+
+def check_words_of_search():
+    generator = numpy.random.default_rng(1)
+    measured("noise.csv", {**TRUTH, I + "Friction coefficient unbroken": 0.3}, more=0.02 * 40 * generator.standard_normal(200))
+
+    def says(found, words):
+        return any(words in text for text in found.warnings)
+
+    lower = fit({**TWO, I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.1..1.2>>"}, "noise.csv")
+    report("a bond that lowers friction is told", says(lower, "with the values that were found the bond lowers friction"), lower.warnings)
+    measured("noise.csv", more=0.02 * 53 * generator.standard_normal(200))
+    right = fit(TWO, "noise.csv")
+    problem, away = right.problem, right.values * [1.2, 1]
+    stalled = fits.Fit(problem, [fits.Optimum(away, problem.cost(problem.curves([away], True)[0]), True, "", problem.curves([away], True)[0])], True, 0)
+    report("a search that stalls is told, one that ends where the squares are least is not",
+           says(stalled, "the search for mu_ub stalled") and not says(right, "stalled"), stalled.warnings)
+    both = fit({**TWO, I + "Transition factor": "<<b_s: 0.7 in 0.1..3>>"}, "noise.csv")
+    report("a correlation above 0.99 is told, others are not",
+           abs(both.told.correlations).min() < 0.99 < abs(both.told.correlations[1, 2]) and says(both, "a_s and b_s have a correlation of -0.99")
+           and sum("correlation of" in text for text in both.warnings + right.warnings) == 1, (both.told.correlations, both.warnings))
+    # a stiffness that is wrong, and not fitted, is missed by the few rows of the rise
+    measured("rise.csv", {**TRUTH, I + "Tangential stiffness": 150}, more=0.005 * 53 * generator.standard_normal(200))
+    rise = fit(TWO, "rise.csv")
+    report("a rise that is off does not fit, and it is told by how much", rise.misfits[0].does_not_fit and says(rise, "rows in turn are off by"),
+           (rise.misfits[0].local, rise.misfits[0].local_over_noise, rise.misfits[0].chance, rise.warnings))
+
+
+def check_steps():
+    """Exact data of a run with steps that are wide: intervals have no width, and steps of half the size other values."""
+    scene = SCENE.replace("set Model = foundation", "").replace("Steps = 1, 200", "Steps = 1, 25") + """
+subsection Bone
+  set Cells = 4, 4, 1
+end
+subsection Implant
+  set Cells = 4, 4
+end
+"""
+    rows = debond.Scene(None, TRUTH, text=scene).run().rows
+    turned = rows["angle_deg"] > 0
+    write("wide.csv", {"angle_deg": rows["angle_deg"][turned], "torque_Nmm": rows["torque_Nmm"][turned]})
+    entries = {**TRUTH, I + "Friction coefficient unbroken": TWO[I + "Friction coefficient unbroken"], "Output/Reference curve": "wide.csv", "Calibration/Starts": 1}
+    found = debond.fit(debond.Scene(None, entries, text=scene))
+    report("steps as wide as an interval are told", any("steps of the load are too wide" in text for text in found.warnings), found.warnings)
 
 
 def check_few_rows():
@@ -253,6 +371,13 @@ def check_what_cannot_be_told():
     report("correlation of -1", abs(found.told.correlations[0, 1] + 1) < 1e-6)
     found = fit(products, "{{clean.csv||none}}", Curves="{{torque_Nmm||torque_Nmm, chuck_Fz_N}}")
     report("a force that is measured too would tell both", len(found.candidates) == 1 and numpy.isfinite(found.candidates[0][1]).all())
+    generator = numpy.random.default_rng(6)
+    for rho in (0, 0.995):
+        measured("noise.csv", more=0.53 * correlated(generator, 200, rho))
+        found = fit(TWO, "{{noise.csv||none}}", Starts=1)
+        share = found.candidates[0][1] / found.told.half_widths
+        report(f"correlation {rho}: the same test once more makes no interval wider, white ones narrower by sqrt(2)",
+               (share <= 1).all() and (rho > 0 or abs(share * numpy.sqrt(2) - 1).max() < 0.03), share)
     hardly = fit({**TWO, "Implant/Young modulus": "<<E: 1e5 in 1e4..2e5>>"}, "clean.csv")
     report("what changes nothing is not told, and does not end at its bound",
            not hardly.is_told[hardly.names.index("E")] and not any("E ends" in text for text in hardly.warnings), hardly.warnings)
@@ -265,6 +390,20 @@ def check_known():
     table = {row["entry"]: row["effect"] for row in fit(both, "clean.csv").taken_as_known}
     load = table["Chuck / Press / Value"]
     report("1 % more load makes both coefficients 1 % smaller", max(abs(load[name] + 1) for name in ("mu_b", "mu_ub")) < 0.02, load)
+    # as it falls the torque turns a machine back that is so soft that its curve jumps
+    rows = debond.Scene(None, TRUTH, text=SCENE).run().rows
+    turned = rows["angle_deg"] > 0
+    shown = numpy.maximum.accumulate(rows["angle_deg"][turned] + 0.1 * rows["torque_Nmm"][turned])
+    first = numpy.r_[True, numpy.diff(shown) > 0]
+    angle = numpy.linspace(0.1, 12, 200)
+    write("soft.csv", {"angle_deg": angle, "torque_Nmm": numpy.interp(angle, shown[first], rows["torque_Nmm"][turned][first])})
+    soft = {**both, "Interface/Bonding/Bonding degree": 0.8, I + "Friction coefficient unbroken": "<<mu_ub: 0.6 in 0.3..1.5>>"}
+    table = {row["entry"]: row for row in fit(soft, "soft.csv", **{"Machine compliance": 0.1}).taken_as_known}
+    load = table["Chuck / Press / Value"]["effect"]
+    report("so it does where the curve jumps, to 10 %", max(abs(load[name] + 1) for name in ("mu_b", "mu_ub")) < 0.1, load)
+    # phi mu_ub + (1 - phi) mu_b, phi from 0.8 on
+    degree = table["Interface / Bonding / Bonding degree"]
+    report("a bonding degree below 1 is in it", degree["change"] == "+1 %" and degree["effect"]["mu_ub"] < -0.1, degree)
 
 
 def check_posteriors():
@@ -320,6 +459,10 @@ def main():
         check_uneven_noise()
         check_noise()
         check_words()
+        check_exact_data()
+        check_constant()
+        check_words_of_search()
+        check_steps()
         check_few_rows()
         check_band()
         check_what_cannot_be_told()
@@ -327,6 +470,7 @@ def main():
         check_posteriors()
         check_ends()
         check_intervals()
+        check_coverage()
     sys.exit(f"{len(failures)} checks failed: {failures}" if failures else 0)
 
 

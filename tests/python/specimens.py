@@ -7,6 +7,7 @@ Ends with 1 and a message at the first thing that is wrong. Needs NumPy and SciP
 
 import contextlib
 import csv
+import importlib
 import io
 import json
 import math
@@ -22,7 +23,8 @@ from scipy import optimize, stats
 import debond
 from debond import specimens as module
 from debond.__main__ import main as main_of_package
-from debond.errors import InputError
+from debond.errors import InputError, RunError
+from debond.page import write_page
 from debond.pooling import pool
 
 source, scratch = (os.path.abspath(path) for path in sys.argv[1:3])
@@ -187,8 +189,62 @@ def check_failures():
     check([(row["group"], row["specimens"], row["tau"]) for row in pooled] == [("all", "1", "nan")] * 2, f"{pooled}")
     page = text_of("some/report.html")
     check("1 of 4 specimens are fitted" in page and "missing.csv" in page, "the page of what failed")
+    check(state_of("some") == ("failed", "3 failed") and state_of("some/A") == ("", "finished"), f"{state_of('some')}, {state_of('some/A')}")
+    check(state_of("some/C") == ("failed", "failed") and "no parameters of this scene fit" in text_of("some/C/report.html"), "page of a fit that failed")
     with open("some/specimens.json", encoding="utf-8") as file:
         check(set(json.load(file)["failures"]) == {"B", "C", "D"}, "specimens.json")
+
+
+def state_of(directory):
+    """How a page says that it has ended: the class of the mark that says so, and its word."""
+    return re.search(r'class="state ?(\w*)">\s*([^<]*)<', text_of(os.path.join(directory, "report.html"))).groups()
+
+
+def check_pages_of_what_went_wrong():
+    """What does not fit, and what has found nothing, is no green page."""
+    shutil.copytree("all", "misfit")
+    rows = rows_of("misfit/parameters.csv")
+    for row in rows[2:]:
+        row["fits"] = "false"
+    with open("misfit/parameters.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([module.PARAMETERS, *(row.values() for row in rows)])
+    write_page("misfit")
+    check(state_of("misfit") == ("failed", "5 do not fit") and "the model does not fit 5 of them" in text_of("misfit/report.html"), f"{state_of('misfit')}")
+    check(state_of("all") == ("", "finished"), "the page of what fits")
+    with open("misfit/M1/calibration.json", encoding="utf-8") as file:
+        results = json.load(file)
+    results["curves"][0]["fits"] = False
+    with open("misfit/M1/calibration.json", "w", encoding="utf-8") as file:
+        json.dump(results, file)
+    write_page("misfit/M1")
+    check(state_of("misfit/M1") == ("failed", "does not fit"), f"{state_of('misfit/M1')}")
+    # a search that finds no curve at all: all runs fail
+    calibrations, whole = importlib.import_module("debond.calibrate"), debond.calibrate
+    scene = debond.Scene(TEMPLATE, {"Task": "calibrate", "Output/Reference curve": os.path.join(example, "M1.csv"), "Output/Directory": "nothing"})
+    search = calibrations.fit_problem
+
+    def fails(problem, say):
+        raise RunError("no curve could be computed: <why>")
+
+    try:
+        calibrations.fit_problem = fails
+        whole(scene)
+        check(False, "a fit that has found nothing is none that failed")
+    except RunError:
+        check(state_of("nothing") == ("failed", "failed") and "no curve could be computed: &lt;why&gt;" in text_of("nothing/report.html"),
+              "page of a fit that has found nothing")
+    finally:
+        calibrations.fit_problem = search
+
+
+def check_closed_pipe():
+    """`| head` ends no fit."""
+    process = subprocess.Popen([sys.executable, "-m", "debond", "specimens", TEMPLATE, os.path.join(example, "specimens.csv"), "--out=piped", "--jobs=1"],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdout.close()
+    said = process.stderr.read()
+    check(process.wait() == 0 and said == b"", f"a closed pipe: {process.returncode}, {said}")
+    check(rows_of("piped/parameters.csv") == rows_of("all/parameters.csv"), "results with a closed pipe")
 
 
 HEAD = "specimen,group,curve,Implant/Radius\n"
@@ -209,6 +265,7 @@ BAD = (
     (HEAD + "A,1,a.csv,2,3\n", "line 2: read 5 items: expected at most 4, as many as there are names"),
     (HEAD + "../A,1,a.csv,2\n", "line 2, column 'specimen': read '../A': expected a name for a directory"),
     (HEAD + ",1,a.csv,2\n", "line 2, column 'specimen': read '': expected a name for a directory"),
+    (HEAD + "Report.html,1,a.csv,2\n", "line 2, column 'specimen': read 'Report.html': expected another name: report.html is a file"),
     (HEAD + "A,1,,2\n", "line 2, column 'curve': read '': expected the file of a measured curve"),
     (HEAD + "A,all,a.csv,2\n", "line 2, column 'group': read 'all': expected another name"),
     (HEAD + "A,1,a.csv,2\na,1,b.csv,2\n", "line 3, column 'specimen': read 'a': expected another name: line 2 has this one"),
@@ -263,6 +320,8 @@ def main():
     check_example()
     check_going_on()
     check_failures()
+    check_pages_of_what_went_wrong()
+    check_closed_pipe()
     check_bad_tables()
     check_workbook()
 

@@ -15,22 +15,67 @@
 
 using namespace Debond;
 
+constexpr double round_off = 1e-11;
+
+
+
 /** The order p in |r_k+1| ~ |r_k|^p that the last three residuals above the
- *  level of rounding show; 0 if there are no three. If the last of them is less
- *  than the square of the one before, which is small, it is 2 at least, however
- *  far that one had come at once. */
+ *  level of rounding show. It is 2 at least, however far the one before had
+ * come at once, if the last of them is of the size of the square of that, or,
+ * where there are no three, if what followed is at most that or rounding. */
 double
 order(const std::vector<double> &history)
 {
-  const double round_off = 1e-11;
-  for (unsigned int k = history.size() - 1; k >= 2; --k)
-    if (history[k] > round_off && history[k - 1] < 0.01 &&
-        history[k] < history[k - 1] * history[k - 1])
-      return 2.;
-    else if (history[k] > round_off)
-      return std::log(history[k] / history[k - 1]) /
-             std::log(history[k - 1] / history[k - 2]);
-  return 0.;
+  const auto is_square = [&](const unsigned int k, const double floor) {
+    return history[k - 1] < 0.01 &&
+           history[k] < std::max(floor, 10. * history[k - 1] * history[k - 1]);
+  };
+  unsigned int k = history.size() - 1; // the last above rounding
+  while (k > 0 && history[k] <= round_off)
+    --k;
+  if (k < 2)
+    return k + 1 < history.size() && is_square(k + 1, round_off) ? 2. : 0.;
+  return is_square(k, 0.) ? 2. :
+                            std::log(history[k] / history[k - 1]) /
+                              std::log(history[k - 1] / history[k - 2]);
+}
+
+
+
+/** Made up: a first correction that leads to @p second of the first residual,
+ *  then residuals that fall by @p next, to what rounding leaves. */
+template <typename Next>
+bool
+is_taken_for_quadratic(const double second, const Next &next)
+{
+  std::vector<double> history{1., second};
+  while (history.back() > 1e-12)
+    history.push_back(next(history.back()) + 1e-13);
+  return order(history) >= 1.8;
+}
+
+
+
+void
+check_order()
+{
+  bool knows_squares = true, knows_lines = true;
+  for (double second = 0.09; second > 1e-9; second *= 0.7)
+    {
+      for (const double factor : {1e-4, 0.1, 1., 5.})
+        knows_squares =
+          knows_squares && is_taken_for_quadratic(second, [&](const double r) {
+            return factor * r * r;
+          });
+      for (const double factor : {0.5, 0.1, 1e-2, 1e-3})
+        knows_lines =
+          knows_lines && (second < 1e-6 ||
+                          !is_taken_for_quadratic(second, [&](const double r) {
+                            return factor * r;
+                          }));
+    }
+  report("Quadratic convergence is known, however fast", knows_squares);
+  report("Linear convergence is no such", knows_lines);
 }
 
 
@@ -103,6 +148,7 @@ int
 main()
 {
   set_up_libraries();
+  check_order();
   const std::string stiff         = R"(
     subsection Interface
       set Normal stiffness = 20000

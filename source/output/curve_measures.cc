@@ -305,7 +305,7 @@ namespace Debond
       "D_adh_Nmm D_adh_normal_Nmm D_adh_tangential_Nmm "
       "w_normal_N_per_m w_tangential_N_per_m "
       "dissipation_Nmm viscous_dissipation_Nmm "
-      "work_Nmm E_bulk_Nmm E_interface_Nmm "
+      "work_Nmm E_start_Nmm E_bulk_Nmm E_interface_Nmm "
       "e_mp e_rel difference_max difference_max_deg difference_mean "
       "reference_rows_used pressure_difference_rms slip_difference_rms "
       "reference_angles_used "
@@ -476,7 +476,9 @@ namespace Debond
     const Extremes most(rows);
     const double   T_max = std::abs(most.peak->torque_Nmm);
     measures.update(
-      {{"largest_energy_defect", most.energy_defect},
+      {{"E_start_Nmm",
+        steps.front().energy_bulk_Nmm + steps.front().energy_interface_Nmm},
+       {"largest_energy_defect", most.energy_defect},
        {"largest_reaction_defect", most.reaction_defect},
        {"T_max_Nmm", T_max},
        {"pressure_MPa",

@@ -215,9 +215,10 @@ namespace Debond
 
 
   Chuck::Vector6
-  Chuck::rates(const double time) const
+  Chuck::rates(const double time, const double duration) const
   {
-    const double h = 1e-5 * std::max(1., std::abs(time));
+    const double h =
+      std::min(1e-5 * std::max(1., std::abs(time)), 0.1 * duration);
     return (3. * values(time) - 4. * values(time - h) + values(time - 2. * h)) /
            (2. * h);
   }

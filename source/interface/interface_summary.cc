@@ -73,7 +73,9 @@ namespace Debond
   // of it tell that the faces of the elements cannot take the shape that a
   // stiff interface asks for: each touches in some places only, with too large
   // a pressure. Points lie in rows and columns over the whole surface, which
-  // are curved on a disk: one alone may leave the patch and come back.
+  // are curved on a disk: one alone may leave the patch and come back. Patches
+  // of a bond that is pulled enclose nothing, and where points climb as they
+  // slide only gaps count that the highest of them would leave as well.
   unsigned int
   ContactInterface::n_enclosed() const
   {
@@ -88,6 +90,12 @@ namespace Debond
     const auto point = [&](const unsigned int q) -> const SlavePoint & {
       return points[sectors ? number_of_kept[q] : q];
     };
+    double highest = 0.; // [mm]
+    for (const SlavePoint &one : points)
+      if (one.trial.pressure > 0. && !law.joint->pulls())
+        highest =
+          std::max(highest,
+                   law.joint->reach(one.begin(*law.joint, mode_now), 0.));
     // in its row, its column, or both
     std::vector<unsigned int> times_enclosed(n_points(), 0);
     for (const bool is_row : {true, false})
@@ -100,10 +108,12 @@ namespace Debond
               const unsigned int q = is_row ? number(k, line) : number(line, k);
               if (status(point(q)) == PointStatus::open)
                 {
-                  if (point(q).accepted.has_partner) // not beyond the edge
+                  // not beyond the edge
+                  if (point(q).accepted.has_partner &&
+                      point(q).trial.normal_gap > highest)
                     since_closed.push_back(q);
                 }
-              else
+              else if (point(q).trial.pressure > 0.)
                 {
                   for (const unsigned int open : since_closed)
                     times_enclosed[open] += any_closed;

@@ -445,7 +445,7 @@ namespace Debond
         // Steps know their ends only. A chuck that turns back within a step, or
         // goes along a curve, slides less than the scene says.
         if (scene.has_friction() && scene.has_friction_after(from))
-          state_checks.add_motion(row, coupled_system.chuck, from, to);
+          state_checks.add_motion(row, coupled_system, from, to);
       }
     solver.commit();
     accepted_rates = rates;

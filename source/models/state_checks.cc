@@ -73,7 +73,7 @@ namespace Debond
       const double         released = released_energy.add(
         {forces,
                  chuck.machine_position(),
-                 chuck.machine_energy() + system.bulk_energy() + summary.energy,
+                 chuck.machine_energy(forces) + system.bulk_energy() + summary.energy,
                  work.friction,
                  work.friction_bound + system.press_fit.bound(),
                  system.press_fit.work()});
@@ -112,8 +112,8 @@ namespace Debond
       // what they store; four times, as the pressure's part tells nothing.
       else if (released_energy.may_hide_a_jump() &&
                (summary.steepest_softening *
-                    (summary.energy +
-                     4. * (system.bulk_energy() + chuck.machine_energy())) >
+                    (summary.energy + 4. * (system.bulk_energy() +
+                                            chuck.machine_energy(forces))) >
                   summary.energy ||
                 opens_unstably))
         note("steep fall",
@@ -224,12 +224,12 @@ namespace Debond
 
   // What slides does so by less than it should.
   void
-  StateChecks::add_motion(const unsigned int step,
-                          const Chuck       &chuck,
-                          const double       from,
-                          const double       to)
+  StateChecks::add_motion(const unsigned int   step,
+                          const CoupledSystem &system,
+                          const double         from,
+                          const double         to)
   {
-    path.add(chuck, from, to);
+    path.add(system.chuck, from, to, system.press_fit.over_time());
     if (path.missed_share() > ChuckPath::largest_missed_share)
       note(step,
            "way",
@@ -310,8 +310,13 @@ namespace Debond
        system.interface.work().dissipation,
        system.interface.work().dissipation_bound + system.press_fit.bound(),
        system.press_fit.work()});
-    // the explicit law does not dissipate what InterfaceWork::friction says
-    if (!parameters.interface.explicit_friction)
+    // Between rigid bodies that are all held where the scene wants them each
+    // point has the one state that its law allows. The explicit law does not
+    // dissipate what InterfaceWork::friction says.
+    const bool has_one_state =
+      system.chuck.unknowns().empty() &&
+      system.bone.n_unknowns() + system.implant.n_unknowns() == 0;
+    if (!has_one_state && !parameters.interface.explicit_friction)
       {
         if (summary.opening_softening > 0. && compliance < 0.)
           compliance = system.compliance_of_opening();

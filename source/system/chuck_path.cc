@@ -6,14 +6,13 @@
 namespace Debond
 {
   ChuckPath::Lengths
-  ChuckPath::distances(const Chuck::Vector6 &from,
-                       const Chuck::Vector6 &to) const
+  ChuckPath::distances(const Place &from, const Place &to) const
   {
     Lengths squares = Lengths::Zero();
-    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+    for (unsigned int k = 0; k <= interference; ++k)
       {
         const bool alone =
-          parameters.component[k].loaded || k == ChuckComponent::rotation_z;
+          k >= ChuckComponent::rotation_z || parameters.component[k].loaded;
         squares[alone          ? k :
                 is_rotation(k) ? tilts :
                                  translations] += std::pow(to[k] - from[k], 2);
@@ -24,17 +23,24 @@ namespace Debond
 
 
   void
-  ChuckPath::add(const Chuck &chuck, const double from, const double to)
+  ChuckPath::add(const Chuck        &chuck,
+                 const double        from,
+                 const double        to,
+                 const TimeFunction &thickening)
   {
     constexpr unsigned int n_parts  = 32;
     constexpr double       rounding = 1e-9;
-    const Chuck::Vector6   start    = chuck.values(from);
-    Chuck::Vector6         here = start, next = start;
-    Lengths                length_now = Lengths::Zero();
+    const auto             place_at = [&](const double time) {
+      Place place;
+      place << chuck.values(time), thickening ? thickening(time) : 0.;
+      return place;
+    };
+    const Place start = place_at(from);
+    Place       here = start, next = start;
+    Lengths     length_now = Lengths::Zero();
     for (unsigned int i = 1; i <= n_parts; ++i, here = next)
       {
-        next =
-          chuck.values(i < n_parts ? from + i * (to - from) / n_parts : to);
+        next = place_at(i < n_parts ? from + i * (to - from) / n_parts : to);
         length_now += distances(here, next);
       }
     const Lengths missed_now = length_now - distances(start, next);
@@ -55,12 +61,14 @@ namespace Debond
     Classic<std::ostringstream> text;
     text.precision(3);
     text << 100. * share << " % of the path of ";
-    if (k >= translations)
-      text << (k == tilts ? "the tilts (Rotation x, y)" : "the translations");
+    if (k == interference)
+      text << "Interface / Interference";
+    else if (k >= translations)
+      text << (k == tilts ? "the tilts (Rotation x, y) of the chuck" :
+                            "the translations of the chuck");
     else
       text << (parameters.component[k].loaded ? "the load of " : "")
-           << ChuckParameters::names[k];
-    text << " of the chuck";
+           << ChuckParameters::names[k] << " of the chuck";
     return text.str();
   }
 } // namespace Debond

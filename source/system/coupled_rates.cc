@@ -39,22 +39,25 @@ namespace Debond
     const InterfaceConfiguration moving = with_whole_chuck();
     const unsigned int n_v = unknowns - configuration.chuck_unknowns.size();
     interface.differentiate_turns(moving);
-    const PathEquation   no_path;
+    const PathEquation   no_path; // and no spring: rows are forces of contact
     const CoupledTangent whole(body, interface, moving, no_path);
 
-    const Chuck::Vector6  given       = chuck.rates(trial_time);
+    const Chuck::Vector6 given =
+      chuck.rates(trial_time, interface.mode().duration);
     const Eigen::VectorXd by_duration = rates_by_duration(moving);
     Eigen::VectorXd       motion      = Eigen::VectorXd::Zero(n_v + 6);
+    // on a spring stiffer than the face the chuck goes along, but for little
     for (unsigned int k = 0; k < 6; ++k)
-      if (chuck.is_prescribed(k))
+      if (chuck.is_prescribed(k) || path.row_scale(chuck, k) < 1.)
         motion[n_v + k] = given[k];
     const Eigen::VectorXd change =
       whole.interface_product(motion) + by_duration;
     Eigen::VectorXd right(unknowns);
     right.head(n_v) = change.head(n_v);
     for (const auto &[k, number] : configuration.chuck_unknowns)
-      right[number] =
-        change[n_v + k] - chuck.machine_load_per_value(k) * given[k];
+      right[number] = path.row_scale(chuck, k) *
+                      (change[n_v + k] - chuck.machine_load_per_value(k) *
+                                           (given[k] - motion[n_v + k]));
     {
       const TimedSection    t(timer, "dense solve");
       const Eigen::VectorXd response = bone.whole() ?
@@ -62,16 +65,13 @@ namespace Debond
                                          -solve_condensed(right, 1e-4);
       motion.head(n_v)               = response.head(n_v);
       for (const auto &[k, number] : configuration.chuck_unknowns)
-        motion[n_v + k] = response[number];
+        motion[n_v + k] += response[number];
     }
 
     Rates result;
     result.position = motion.tail<6>();
     result.surfaces = nodal_motion(motion, moving);
     result.forces   = (whole.interface_product(motion) + by_duration).tail<6>();
-    // The rows are those of equations, the force of a spring in them.
-    for (const auto &[k, number] : configuration.chuck_unknowns)
-      result.forces[k] += chuck.machine_stiffness(k) * motion[n_v + k];
     // b_k . M = r_k, so that b_k . dM = dr_k - db_k . M.
     const Eigen::Vector3d moment = chuck_resultant().tail<3>();
     Eigen::Matrix3d       axes;

@@ -69,8 +69,9 @@ namespace Debond
 
   // Two scales come with the scene. A residual is to be small compared with the
   // contact forces, which may be none: force_floor is the force [N] of a
-  // penetration of 1e-6 R over the whole face, eps_n A 1e-6 R. Where faces that
-  // only touch are bonded the rounding of positions, 1e-16 R, is a force.
+  // penetration of 1e-6 R over the whole face, eps_n A 1e-6 R. Where the
+  // tolerance is less than the rounding of places it is that much more: the
+  // force of a penetration of one unit in their last digit is no residual.
   CoupledSystem::CoupledSystem(const ModelParameters    &parameters,
                                std::shared_ptr<BodyPair> bodies,
                                dealii::TimerOutput      *timer)
@@ -85,11 +86,12 @@ namespace Debond
     , press_fit(parameters.interface, parameters.implant, implant.surface())
     , R(parameters.implant.characteristic_radius())
     , timer(timer)
-    , force_floor(
-        parameters.interface.normal_penalty * interface.implant_area() * R *
-        (interface.get_law().pulls() ?
-           std::max(1e-6, 1e-16 / parameters.load_steps.residual_tolerance) :
-           1e-6))
+    , force_floor(parameters.interface.normal_penalty *
+                  interface.implant_area() *
+                  std::max(1e-6 * R,
+                           std::numeric_limits<double>::epsilon() *
+                             (R + chuck.reference_centre().norm()) /
+                             parameters.load_steps.residual_tolerance))
     , load_is_axial(parameters.load_steps.cyclic_symmetry &&
                     is_axial(parameters.chuck))
     , matrix(body, interface, configuration, path)
@@ -426,9 +428,10 @@ namespace Debond
 
   // The rows of the chuck [N, N mm]: a loaded component is in equilibrium with
   // its load, one with a compliant machine with the force of the spring, k
-  // (value - q) (machine_load). Then, along a path, the row of the time, see
-  // PathEquation. The row of a component that follows the time stays 0, as
-  // correct() puts it where it belongs.
+  // (value - q) (machine_load), both scaled where that is stiffer than the
+  // face. Then, along a path, the row of the time, see PathEquation. The row of
+  // a component that follows the time stays 0, as correct() puts it where it
+  // belongs.
   //
   // Moments count as forces at the distance R in the norm, so that the result
   // does not depend on the unit of length. Returns the square of that norm, and
@@ -443,11 +446,13 @@ namespace Debond
       if (!chuck.is_prescribed(component)) // along a path it follows the time
         {
           const double load         = chuck.machine_load(component);
-          const double force        = forces[component] - load;
+          const double scale        = path.row_scale(chuck, component);
+          const double force        = scale * (forces[component] - load);
           residual.unknowns[number] = force;
           norm_squared += std::pow(force / scale_of(component), 2);
           residual.reference =
-            std::max(residual.reference, std::abs(load) / scale_of(component));
+            std::max(residual.reference,
+                     scale * std::abs(load) / scale_of(component));
         }
     if (path.follow)
       {
@@ -497,8 +502,8 @@ namespace Debond
     Correction result;
     if (is_held_by_contact() && interface.summarise().n_closed == 0)
       {
-        result.why = "a loaded chuck has nothing to act against: the bodies "
-                     "are not in contact";
+        result.why = "a loaded chuck has nothing to act against: in this trial "
+                     "no point is in contact";
         return result;
       }
     if (bone.whole())

@@ -121,7 +121,8 @@ namespace Debond
       {
         // The load of a spring falls as the chuck gives way: k (value - q), so
         // that this adds +k to the diagonal.
-        y[row] -= chuck.machine_stiffness(k) * x[row];
+        if (path.stiffness[k] > 0.)
+          y[row] -= chuck.machine_stiffness(k) * x[row];
         if (!is_rotation(k))
           continue;
         for (unsigned int A = 0; A < side.positions.cols(); ++A)
@@ -165,6 +166,7 @@ namespace Debond
     add_geometric_part(x, y);
     if (path.follow)
       path.apply(configuration, x, y);
+    scale_rows(configuration, y);
     return y;
   }
 
@@ -325,6 +327,7 @@ namespace Debond
         path.apply(configuration,
                    Eigen::VectorXd::Unit(size(), j),
                    matrix.col(j));
+    scale_rows(configuration, matrix);
   }
 
 
@@ -348,5 +351,6 @@ namespace Debond
                        Eigen::VectorXd::Unit(matrix.cols(), j),
                        matrix.col(j));
       }
+    scale_rows(numbers, matrix);
   }
 } // namespace Debond

@@ -185,6 +185,27 @@ check_tolerance(const std::string              &name,
 
 
 
+// Time is a parameter: loads in another unit of it take as many rows.
+void
+check_unit_of_time()
+{
+  std::cout << "another unit of time" << std::endl;
+  std::vector<double> n_rows;
+  for (const std::string unit : {"1", "1e-5"})
+    n_rows.push_back(
+      run_scene("unit " + unit,
+                rigid_coin,
+                {"Chuck/Press/Value=0.0049 * min(t / " + unit + ", 1)",
+                 "Chuck/Rotation z/Value=2 * max(t / " + unit + " - 1, 0)",
+                 "Load steps/Times=0, " + unit + ", 2" + unit.substr(1),
+                 "Load steps/Steps=1, 10",
+                 "Load steps/Adaptive=true"})
+        .size());
+  report("  rows, over those before", n_rows[1] / n_rows[0], 1.1);
+}
+
+
+
 void
 check_files()
 {
@@ -225,6 +246,12 @@ test()
                "Chuck/Rotation x/Control=moment",
                "Chuck/Rotation x/Value=2 * max(t - 1, 0)",
                "Chuck/Rotation z/Stiffness=20000"});
+  check_rates("A machine as stiff as can be",
+              {"Bone/Material=linear",
+               "Implant/Material=linear",
+               "Chuck/Press/Stiffness=1e18",
+               "Chuck/Rotation z/Stiffness=1e18"});
+  check_unit_of_time();
   check_cubic();
   check_tolerance("circle",
                   {"Load steps/Times=0, 1, 2, 3",

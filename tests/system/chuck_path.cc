@@ -80,6 +80,34 @@ check_turning_soon()
 
 
 
+// An interference that comes and goes within each step, which its values at the
+// ends do not show: all of its path is missed. One that only grows misses
+// nothing.
+void
+check_interference()
+{
+  std::cout << "an interference" << std::endl;
+  const ChuckParameters at_rest;
+  const Chuck           chuck(at_rest, Eigen::Vector3d::Zero(), 1.);
+  ChuckPath             to_and_fro(at_rest), growing(at_rest);
+  for (const double begin : {0., 1., 2.})
+    {
+      to_and_fro.add(chuck, begin, begin + 1., [](const double t) {
+        return 0.02 * std::abs(t - std::floor(t + 0.5));
+      });
+      growing.add(chuck, begin, begin + 1., [](const double t) {
+        return 0.02 * t * t;
+      });
+    }
+  std::cout << "  " << to_and_fro.describe() << std::endl;
+  report("  differs from the exact share",
+         std::abs(to_and_fro.missed_share() - 1.),
+         1e-14);
+  report("  missed where it grows", growing.missed_share(), 1e-14);
+}
+
+
+
 // Chords of a circle in 12 steps, and of 32 times as many; of a larger number,
 // which is as many as it takes.
 void
@@ -105,6 +133,7 @@ main()
   check_straight_motion();
   check_turning_back();
   check_turning_soon();
+  check_interference();
   check_curve(0); // translations
   check_curve(3); // tilts
 }

@@ -195,9 +195,9 @@ namespace Debond
     values(double time) const;
 
     /** Their rates of change with time up to it, where a phase may end; by
-     *  differences. */
+     *  differences, within a fifth of the @p duration of the step. */
     Vector6
-    rates(double time) const;
+    rates(double time, double duration = 1e100) const;
     /** Whether a component is where the scene wants it, at any load. */
     bool
     is_prescribed(const unsigned int k) const
@@ -222,11 +222,13 @@ namespace Debond
     {
       return compliant.select(target, q);
     }
-    /** Energy stored in a compliant machine [N mm]. */
+    /** Energy stored in a compliant machine under @p forces [N mm]. */
     double
-    machine_energy() const
+    machine_energy(const Vector6 &forces) const
     {
-      return 0.5 * stiffness.dot((target - q).cwiseAbs2());
+      return compliant
+        .select(0.5 * forces.array().square() / stiffness.array(), 0.)
+        .sum();
     }
     void
     correct(const unsigned int component, const double dq)

@@ -28,7 +28,10 @@ namespace Debond
      *  to time @p to, that is about to be accepted as a part of the planned
      *  @p step. Throws InputError if a value in between is not finite. */
     void
-    add_motion(unsigned int step, const Chuck &chuck, double from, double to);
+    add_motion(unsigned int         step,
+               const CoupledSystem &system,
+               double               from,
+               double               to);
 
     /** A phase of the load begins with the last state. */
     void

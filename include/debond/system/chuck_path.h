@@ -7,9 +7,9 @@
 
 namespace Debond
 {
-  /** The length of the chuck's path, as the scene prescribes it, and how much
-   *  of that the steps miss, which know their ends and not what lies between:
-   *  curves, and motions or loads that turn back within a step. */
+  /** The length of the path of the chuck and of an interference, as the scene
+   *  prescribes it, and how much of that the steps miss, which know their ends
+   *  and not what lies between: curves, and what turns back within a step. */
   class ChuckPath
   {
   public:
@@ -24,9 +24,13 @@ namespace Debond
     {}
 
     /** A step between two times. What turns back within 1/32 of it is not
-     *  seen. Throws InputError if a value in it is not finite. */
+     *  seen. @p thickening: an interference, or null. Throws InputError if a
+     *  value in it is not finite. */
     void
-    add(const Chuck &chuck, double from, double to);
+    add(const Chuck        &chuck,
+        double              from,
+        double              to,
+        const TimeFunction &thickening = {});
 
     /** The largest share of a length that has been missed so far, of those of
      *  which the last step missed more than it may; 0 if there is none. */
@@ -48,14 +52,18 @@ namespace Debond
     }
 
   private:
-    /** Of each component (mm, radians, N or N mm), and of the driven
-     *  translations together and the driven tilts together, which may go along
-     *  curves. */
-    using Lengths = Eigen::Matrix<double, ChuckParameters::n_components + 2, 1>;
-    static constexpr unsigned int translations = 6, tilts = 7;
+    /** Of each component (mm, radians, N or N mm), of the interference, and of
+     *  the driven translations together and the driven tilts together, which
+     *  may go along curves. */
+    using Lengths = Eigen::Matrix<double, ChuckParameters::n_components + 3, 1>;
+    static constexpr unsigned int interference = ChuckParameters::n_components,
+                                  translations = interference + 1,
+                                  tilts        = interference + 2;
+    /** Of the components and the interference. */
+    using Place = Eigen::Matrix<double, interference + 1, 1>;
 
     Lengths
-    distances(const Chuck::Vector6 &from, const Chuck::Vector6 &to) const;
+    distances(const Place &from, const Place &to) const;
 
     const ChuckParameters &parameters;
     Lengths                length = Lengths::Zero(), missed = Lengths::Zero();

@@ -25,8 +25,20 @@ namespace Debond
     double old_slip = 0; ///< mean slip of the accepted state [mm]
     /** Of the whole face against each component of the chuck: eps_n A [N/mm],
      *  or eps_n A R^2 [N mm] for rotations. It gives the equations of q_k along
-     *  a path the size of the others, and is D of CoupledTangent. */
+     *  a path the size of the others, and is D of CoupledTangent. 0: the
+     *  machine counts for nothing. */
     Chuck::Vector6 stiffness = Chuck::Vector6::Zero();
+
+    /** What the equation of a component of the chuck is multiplied by: of a
+     *  spring stiffer than the face it would be the rounding of positions times
+     *  that, and becomes a length or angle as those of prescribed ones. */
+    double
+    row_scale(const Chuck &chuck, const unsigned int k) const
+    {
+      const double of_spring = -chuck.machine_stiffness(k),
+                   limit     = stiffness[k];
+      return of_spring > limit && limit > 0. ? limit / of_spring : 1.;
+    }
 
     /** Returns the residual of the equation for the time, in a trial state at
      *  @p time, in units of force: the whole slip step weighs as much as
@@ -146,6 +158,14 @@ namespace Debond
     add_chuck(const InterfaceConfiguration &numbers,
               const Fold                   &fold,
               Eigen::MatrixXd              &matrix) const;
+    /** Multiplies the rows of the chuck. */
+    template <typename Rows>
+    void
+    scale_rows(const InterfaceConfiguration &numbers, Rows &rows) const
+    {
+      for (const auto &[k, row] : numbers.chuck_unknowns)
+        rows.row(row) *= path.row_scale(*numbers.chuck, k);
+    }
     /** D: stiffness of the unknown component @p k of the chuck in B [N/mm,
      *  N mm]. No body resists it. Where A can be assembled D is 0, B has no
      *  inverse, and LU takes over. Otherwise the stiffness of the whole face

@@ -32,6 +32,12 @@ namespace Debond
     void
     commit(const ControlNet &forces);
 
+    /** [mm], null where there is none. */
+    const TimeFunction &
+    over_time() const
+    {
+      return interference;
+    }
     bool
     is_none() const
     {

@@ -21,18 +21,14 @@ namespace Debond
 
 
     /** What the scene prescribes, a column for each time: expressions may do
-     *  anything between planned steps. Each phase has at least a thousand
-     *  times, the ends of planned steps among them. */
+     *  anything between planned steps. */
     Eigen::ArrayXXd
     prescribed_values(const Scene &scene)
     {
-      const Chuck            chuck(scene.chuck,
+      const Chuck               chuck(scene.chuck,
                         Eigen::Vector3d::Zero(),
                         scene.implant.characteristic_radius());
-      LoadSteppingParameters steps = scene.load_steps;
-      for (unsigned int &n : steps.steps)
-        n *= (999 + n) / n;
-      const std::vector<double> times = steps.planned_times();
+      const std::vector<double> times = scene.load_steps.sample_times();
       Eigen::ArrayXXd           values(6, times.size());
       for (std::size_t i = 0; i < times.size(); ++i)
         values.col(i) = chuck.values(times[i]).array();

@@ -47,8 +47,9 @@ namespace Debond
     declare_friction_laws(table, friction_choice);
     table.add("Friction starts at",
               friction_starts_at,
-              Allowed::number("time"),
-              "Time until which the interface is frictionless.");
+              Allowed::number("time").or_word_for("auto", entry_text(-1e100)),
+              "Time until which the interface is frictionless. `auto': it has "
+              "friction from the first time on.");
     table.add("Interference",
               interference,
               Allowed::text("an expression in t"),

@@ -92,9 +92,15 @@ namespace Debond
         : scene(scene)
         , chuck(scene.chuck, Eigen::Vector3d::Zero(), scene.implant.radius)
       {
-        for (const double time : scene.load_steps.planned_times())
-          loads.push_back(at(time));
-        check();
+        // expressions may do anything between the rows
+        for (const auto &times : {scene.load_steps.sample_times(),
+                                  scene.load_steps.planned_times()})
+          {
+            loads.clear();
+            for (const double time : times)
+              loads.push_back(at(time));
+            check();
+          }
       }
 
       Load

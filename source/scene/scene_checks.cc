@@ -122,25 +122,13 @@ namespace Debond
 
 
 
-    /** Also between planned steps, which may be few where they are adaptive. */
-    void
-    check_tables(const Scene &scene)
-    {
-      LoadSteppingParameters dense = scene.load_steps;
-      dense.steps.assign(dense.steps.size(), 1000);
-      scene.chuck.check_tables(dense.planned_times(),
-                               scene.implant.characteristic_radius());
-    }
-
-
-
     void
     check_chuck(const Scene &scene)
     {
       const std::vector<double> times = scene.load_steps.sample_times();
       scene.chuck.check();
       check_component(scene, ChuckComponent::rotation_z, times);
-      check_tables(scene);
+      scene.chuck.check_tables(times, scene.implant.characteristic_radius());
       bool moves = check_interference(scene, times);
       for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
         {

@@ -17,26 +17,16 @@ namespace Debond
   {
     /** The largest value that the scene wants of a component, in its units
      *  [mm, degrees; N, N mm of a load], also between the planned times, where
-     *  adaptive steps may end: at fractions of each step that are in tune with
-     *  no wave of the motion. */
+     *  adaptive steps may end. */
     double
     largest_value(const ModelParameters &model, const unsigned int component)
     {
-      constexpr double          golden = 0.6180339887498949;
-      const std::vector<double> times  = model.load_steps.sample_times();
-      // some thousand in all
-      const std::size_t n_between = 1 + 1000 / times.size();
-      const auto        function =
+      const auto function =
         model.chuck.value_over_time(component,
                                     model.implant.characteristic_radius());
-      double largest = std::abs(function(times.front()));
-      for (unsigned int i = 1; i < times.size(); ++i)
-        for (std::size_t k = 0; k <= n_between; ++k)
-          {
-            const double part = std::fmod(k * golden, 1.); // 0: the end
-            const double time = times[i] - part * (times[i] - times[i - 1]);
-            largest           = std::max(largest, std::abs(function(time)));
-          }
+      double largest = 0.;
+      for (const double time : model.load_steps.sample_times())
+        largest = std::max(largest, std::abs(function(time)));
       return largest;
     }
 

@@ -57,7 +57,8 @@ namespace Debond
                 parameters.residual_tolerance,
                 Allowed::number_between(1e-14, 0.1, ""),
                 "Newton's method has converged when the residual is below "
-                "this fraction of the contact force.");
+                "this fraction of the contact force, or of a load that is "
+                "larger, or below the force of what rounding makes of places.");
     }
   } // namespace
 
@@ -205,11 +206,23 @@ namespace Debond
   std::vector<double>
   LoadSteppingParameters::sample_times() const
   {
+    constexpr double       golden = 0.6180339887498949;
     LoadSteppingParameters coarse = *this;
-    const unsigned int     largest_in_phase =
-      std::max<std::size_t>(1, 1000 / steps.size());
-    for (unsigned int &n : coarse.steps)
-      n = std::min(n, largest_in_phase);
-    return coarse.planned_times();
+    const unsigned int  wanted = std::max<std::size_t>(1, 1000 / steps.size());
+    std::vector<double> result{times[0]};
+    for (unsigned int phase = 0; phase < steps.size(); ++phase)
+      {
+        unsigned int &n = coarse.steps[phase];
+        n               = std::min(n, wanted);
+        for (unsigned int i = 1; i <= n; ++i)
+          {
+            const double end  = coarse.planned_time(phase, i),
+                         size = end - coarse.planned_time(phase, i - 1);
+            for (unsigned int k = 0; k <= 1 + wanted / n; ++k) // 0: the end
+              result.push_back(end - std::fmod(k * golden, 1.) * size);
+          }
+      }
+    std::sort(result.begin(), result.end());
+    return result;
   }
 } // namespace Debond

@@ -30,8 +30,9 @@ show(const std::vector<std::string> &overrides)
 int
 main()
 {
-  const std::string push = "Chuck/Press/", twist = "Chuck/Rotation z/Value=",
-                    law = "Interface/Friction ";
+  const std::string push  = "Chuck/Press/",
+                    twist = "Chuck/Rotation z/Value=",
+                    law   = "Interface/Friction ";
   show({"Title=nothing wrong"});
 
   show({"Bone/Young modulus=18"});
@@ -123,6 +124,10 @@ main()
   show({twist + "0.1745 * sin(20 * pi * t)"});
   show({"Load steps/Times=0, 0.5, 1"});
   show({"Chuck/Rotation x/Value=0 * t"});
+  // 0 at the ends of all steps
+  show({"Chuck/Rotation x/Value=0.01 * abs(t - rint(t))",
+        "Load steps/Times=0, 1, 2, 3",
+        "Load steps/Steps=1, 1, 1"});
   show({push + "Control=force", push + "Value=-50 * min(t, 1)"});
   show({push + "Control=force", push + "Value=50 * min(t, 1)"});
   show({push + "Control=force", push + "Value=0.0049 * min(t, 1)"});

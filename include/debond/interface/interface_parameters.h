@@ -18,8 +18,8 @@ namespace Debond
     /** Never null; made of what a scene says of it, friction_choice. */
     FrictionLawPointer friction = default_friction_law();
     LawChoice          friction_choice;
-    LawChoice          law_choice; ///< of the law of the interface
-    double friction_starts_at = 0; ///< frictionless before this time
+    LawChoice          law_choice;      ///< of the law of the interface
+    double friction_starts_at = -1e100; ///< frictionless before this time
     /** By how much the implant is thicker than its bore, of t [mm]. */
     std::string   interference   = "0";
     double        viscosity      = 0; ///< eta [MPa per (mm per unit of time)]

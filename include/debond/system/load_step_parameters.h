@@ -67,8 +67,10 @@ namespace Debond
     /** The first time and the ends of all planned steps. */
     std::vector<double>
     planned_times() const;
-    /** The same, or an even choice of them if there are many; first and last
-     *  time of each phase included. */
+    /** The same, or an even choice of them if there are many, first and last
+     *  time of each phase included, and times between them, some thousand in
+     *  all: at fractions of each step that are in tune with no wave. What
+     *  functions of time are judged by. */
     std::vector<double>
     sample_times() const;
 

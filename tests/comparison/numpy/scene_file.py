@@ -31,7 +31,7 @@ ENTRIES = {
     'Interface/Normal stiffness': 585., 'Interface/Tangential stiffness': 'auto',
     'Interface/Friction law': ('modified coulomb', 'coulomb', 'frictionless', 'table', 'rate and state'),
     'Interface/Friction coefficient': .4, 'Interface/Friction coefficient broken': .4, 'Interface/Friction coefficient unbroken': .58,
-    'Interface/Characteristic slip distance': .022, 'Interface/Transition factor': .74, 'Interface/Friction starts at': 0.,
+    'Interface/Characteristic slip distance': .022, 'Interface/Transition factor': .74, 'Interface/Friction starts at': -np.inf,
     'Expert/Slip direction': ('integrated', 'trial'),
     'Interface/Opening breaks bond': ('false',), 'Interface/Viscosity': 0., 'Interface/Friction table': 'none',
     'Interface/Rate and state/Reference coefficient': .4, 'Interface/Rate and state/Direct effect': .01,

@@ -100,7 +100,7 @@ class Experiment:
             return (), [numpy.unique(numpy.r_[ends, numpy.array([start, *ends[:-1]]) / 2 + numpy.array(ends) / 2]).tolist()
                         for start, ends in zip(starts, steps)]
         numbers = self.values["Load steps / Steps"].split(",")
-        return (("Load steps / Steps", ", ".join(str(2 * int(n)) for n in numbers)),), ()
+        return (("Load steps / Steps", ", ".join(str(2 * int(float(n))) for n in numbers)),), ()
 
     def _largest_shift(self):
         rigs = [self.changes(values)[1] for values in (self.unknowns.lower, self.unknowns.upper)]

@@ -18,8 +18,8 @@ import numpy
 from scipy import fft, linalg, optimize, special, stats
 
 FEWEST_FREE = 8  # rows beyond unknowns: fewer do not tell whether they hang together
-WHITE = 0.8  # prior of white noise: as that of least BIC, it is left where rows ask for it
-DRIFT = 0.5  # prior of what hangs together over all rows, over that of all shorter lengths
+WHITE = 0.9  # prior of white noise: it is left where rows ask for it
+DRIFT = 1.0  # prior of what hangs together over all rows, over that of all shorter lengths
 
 
 @functools.lru_cache(maxsize=2)

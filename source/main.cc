@@ -1,5 +1,6 @@
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
+#include <debond/input/input_file.h>
 #include <debond/input/old_names.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
@@ -25,6 +26,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -236,7 +238,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
         else if (numbers.count(option) > 0)
           *numbers.at(option) = read_number(option, value(""));
         else if (option == "--set")
-          arguments.overrides.push_back(value("ENTRY=VALUE"));
+          arguments.overrides.push_back(utf8(value("ENTRY=VALUE")));
         else if (option == "--resume")
           arguments.directory_to_resume = value("the directory of a run");
         else if (option == "--compare")
@@ -601,6 +603,8 @@ main(int argc, char *argv[])
   // many threads there are to be is said once it is known what is run.
   set_up_libraries();
   note_command(argc, argv);
+  // a pipe that nobody reads any more, as of `| head`, ends no run: files count
+  std::signal(SIGPIPE, SIG_IGN);
   // mpirun writes to a terminal of its own, whatever becomes of it
   if (isatty(STDOUT_FILENO) && !Ranks::are_launched())
     show_progress_on_terminal();

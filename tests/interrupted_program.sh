@@ -2,7 +2,7 @@
 # The program under signals: it stops after the step at work with 128 + the signal's number, says how to go on, and
 # then leaves the torque curve of a run in one go; what nohup ignores stays ignored; a directory belongs to
 # one run at a time; a checkpoint is not destroyed unasked; a study ends with its variants and goes on from their
-# checkpoints. usage: interrupted_program.sh DEBOND
+# checkpoints; a closed pipe ends no run. usage: interrupted_program.sh DEBOND
 set -euo pipefail
 set -m # else the shell lets its background processes ignore SIGINT
 debond=$1
@@ -154,3 +154,9 @@ before=$(first_fields)
 [ "$(first_fields)" = "$before" ] || fail "a variant does not go on from its checkpoint"
 cmp results/study/variant-001/torque.csv results/whole/torque.csv || fail "another variant"
 echo "a study ends with its variants and goes on: yes"
+
+# A reader that goes away, as head does, ends no run: the rest is said to nobody.
+run results/piped 2> piped.log | head -n 1 > /dev/null
+[ "${PIPESTATUS[0]}" = 0 ] && [ ! -s piped.log ] || fail "a pipe that is closed"
+cmp results/piped/torque.csv results/whole/torque.csv || fail "other results with a pipe that is closed"
+echo "a closed pipe ends no run: yes"

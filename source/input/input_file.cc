@@ -136,35 +136,35 @@ namespace Debond
 
 
 
+  std::string
+  utf8(const std::string &text)
+  {
+    const auto continues = [&](const std::size_t i) {
+      return i < text.size() && (text[i] & 0xC0) == 0x80;
+    };
+    bool        is_utf8 = true;
+    std::string from_latin_1;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      {
+        const auto code = static_cast<unsigned char>(text[i]);
+        is_utf8 =
+          is_utf8 && (code < 0x80 || (code >= 0xC2 && continues(i + 1)) ||
+                      (continues(i) && i > 0 && (text[i - 1] & 0x80)));
+        if (code < 0x80)
+          from_latin_1 += text[i];
+        else
+          {
+            from_latin_1 += static_cast<char>(0xC0 | (code >> 6));
+            from_latin_1 += static_cast<char>(0x80 | (code & 0x3F));
+          }
+      }
+    return is_utf8 ? text : from_latin_1;
+  }
+
+
+
   namespace
   {
-    /** German Excel, for one, writes Latin-1 where it says CSV. */
-    std::string
-    utf8(const std::string &text)
-    {
-      const auto continues = [&](const std::size_t i) {
-        return i < text.size() && (text[i] & 0xC0) == 0x80;
-      };
-      bool        is_utf8 = true;
-      std::string from_latin_1;
-      for (std::size_t i = 0; i < text.size(); ++i)
-        {
-          const auto code = static_cast<unsigned char>(text[i]);
-          is_utf8 =
-            is_utf8 && (code < 0x80 || (code >= 0xC2 && continues(i + 1)) ||
-                        (continues(i) && i > 0 && (text[i - 1] & 0x80)));
-          if (code < 0x80)
-            from_latin_1 += text[i];
-          else
-            {
-              from_latin_1 += static_cast<char>(0xC0 | (code >> 6));
-              from_latin_1 += static_cast<char>(0x80 | (code & 0x3F));
-            }
-        }
-      return is_utf8 ? text : from_latin_1;
-    }
-
-
     /** Whether a digit ends at @p begin and three, no more, begin at @p end. */
     bool
     is_between_thousands(const std::string &text,

@@ -68,8 +68,9 @@ namespace Debond
         files.push_back(name);
         const std::size_t n_outer_before = std::exchange(n_outer, path.size());
 
-        Classic<std::istringstream> lines(plain_text(text, refusal_at(name)));
-        std::string                 line, statement;
+        Classic<std::istringstream> lines(
+          utf8(plain_text(text, refusal_at(name))));
+        std::string line, statement;
         for (unsigned int number = 1; std::getline(lines, line); ++number)
           {
             if (statement.empty())

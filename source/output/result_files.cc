@@ -27,7 +27,8 @@ namespace Debond
       file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
            "report\\.html|torque\\.(svg|png)|"
            "(torque|reactions|curve|curve_at|reference|auto|bonding|profiles|"
-           "friction_law|maps)\\.csv|"
+           "friction_law|maps|correlations|profile|fit(-[0-9]+)?)\\.csv|"
+           "calibration\\.json|fitted(-[0-9]+)?\\.prm|evaluations\\.jsonl|"
            "(bulk|interface)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :

@@ -31,8 +31,13 @@ namespace Debond
   std::string
   plain_text(const std::string &bytes, const FileRefusal &refuse);
 
-  /** The same in UTF-8 with the plain one of marks that look alike: blanks of
-   *  any width, minus signs, dots of a product. Tables come from spreadsheets
+  /** A text in UTF-8 that is in UTF-8 or in Latin-1, as German editors and
+   *  spreadsheets of Windows write it. */
+  std::string
+  utf8(const std::string &text);
+
+  /** plain_text() in UTF-8 with the plain one of marks that look alike: blanks
+   * of any width, minus signs, dots of a product. Tables come from spreadsheets
    *  and word processors, which choose them by themselves. */
   std::string
   plain_table(const std::string &bytes, const FileRefusal &refuse);

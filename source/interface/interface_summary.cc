@@ -204,6 +204,38 @@ namespace Debond
 
 
 
+  // The force acts on the implant at the slave point itself or, with the bone
+  // as slave, at the interacting point, as in the nodal forces of Eq. (36). Of
+  // sectors the first one is known, and the centre is on their axis.
+  PointLoad
+  ContactInterface::load(const unsigned int     q,
+                         const Eigen::Vector3d &centre) const
+  {
+    const SlavePoint &point = points[sectors ? number_of_kept[q] : q];
+    const double      area  = point.JxW / point.n_images;
+    PointLoad         load;
+    const auto add = [&](const auto &part, const SurfaceBasis &of_master) {
+      const bool            is_slave = slave == Side::implant;
+      const Eigen::Vector3d f = (is_slave ? area : -area) * part.traction,
+                            x = interpolate(is_slave ? point.basis : of_master,
+                                            accepted_positions[Side::implant]);
+      load.force += f;
+      load.moment += (x - centre).cross(f);
+      load.energy += area * part.energy;
+    };
+    if (point.trial.state.status != PointStatus::open)
+      add(point.trial, point.trial.basis);
+    if (const CohesiveShare *const share = held_share(point))
+      add(*share, share->basis);
+    if (sectors)
+      for (Eigen::Vector3d *const vector : {&load.force, &load.moment})
+        *vector = (*sectors)[slave].turn[(*sectors)[slave].points[q].turns] *
+                  vector->eval();
+    return load;
+  }
+
+
+
   // -dL/dg_s where it is largest, from the accepted g_s on [MPa/mm]. The
   // steepest point is kept with its numbers, which the message of a run that
   // ends here has to give.

@@ -30,7 +30,7 @@ namespace Debond
 
   namespace
   {
-    const std::string all_series[] = {"bulk", "interface"};
+    const std::string all_series[] = {"bulk", "interface", "points"};
 
 
 
@@ -89,8 +89,12 @@ namespace Debond
                    bulk.list_of_pieces(pieces));
       }
     if (Ranks::is_first())
-      write_file(directory.file(file_name("interface", number)),
-                 interface_vtu(slave, interface, chuck));
+      {
+        write_file(directory.file(file_name("interface", number)),
+                   interface_vtu(slave, interface, chuck));
+        write_file(directory.file(file_name("points", number)),
+                   points_vtu(slave, interface, chuck));
+      }
     times.push_back(time);
     n_pieces.push_back(Ranks::number());
     write_series();
@@ -138,7 +142,7 @@ namespace Debond
     namespace fs = std::filesystem;
     // of any number of ranks
     static const std::regex later(
-      "(bulk|interface)-([0-9]+)(\\.[0-9]+)?\\.p?vtu");
+      "(bulk|interface|points)-([0-9]+)(\\.[0-9]+)?\\.p?vtu");
     const fs::directory_iterator files(directory.path());
     if (Ranks::is_first())
       for (const fs::path &file :

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <sstream>
@@ -28,17 +29,18 @@ namespace Debond
 
 
 
+    /** Names of fields, and how many values each has: 1 or a vector's 3. */
+    using Fields = std::vector<std::pair<std::string, unsigned int>>;
+
     /** The contact face as deal.II draws it: a patch for each element, a
-     *  regular grid of points with the values of all fields. These are no
-     *  finite element functions, of which DataOut could be told. */
-    class DrawnFace : public dealii::DataOutInterface<2, 3>
+     *  regular grid of points with the values of all fields, or, with @p dim 0,
+     *  for each point. These are no finite element functions, of which DataOut
+     *  could be told. */
+    template <int dim>
+    class DrawnFace : public dealii::DataOutInterface<dim, 3>
     {
     public:
-      /** Names of the fields, and how many values each has: 1 or a vector's 3.
-       *  An element is cut into @p n pieces in each direction. */
-      DrawnFace(const std::vector<std::pair<std::string, unsigned int>> &fields,
-                const unsigned int                                       n)
-        : n_pieces(n)
+      explicit DrawnFace(const Fields &fields)
       {
         for (const auto &[name, n_values] : fields)
           {
@@ -52,22 +54,24 @@ namespace Debond
           }
       }
 
-      /** Adds an element. draw(k, values) is called for the points k: it
-       *  appends the values of all fields to an empty list and returns the
-       *  position. */
+      /** Adds a patch of @p n pieces in each direction. draw(k, values) is
+       *  called for the points k: it appends the values of all fields to an
+       *  empty list and returns the position. */
       template <typename Draw>
       void
-      add_element(const Draw &draw)
+      add(const unsigned int n, const Draw &draw)
       {
-        auto &patch                 = patches.emplace_back();
-        patch.n_subdivisions        = n_pieces;
-        patch.patch_index           = patches.size() - 1;
-        patch.reference_cell        = dealii::ReferenceCells::Quadrilateral;
-        patch.points_are_available  = true;
-        const unsigned int n_points = (n_pieces + 1) * (n_pieces + 1);
-        patch.data.reinit(names.size() + 3, n_points);
+        auto &patch                = patches.emplace_back();
+        patch.patch_index          = patches.size() - 1;
+        patch.points_are_available = true;
+        if constexpr (dim > 0)
+          {
+            patch.n_subdivisions = n;
+            patch.reference_cell = dealii::ReferenceCells::Quadrilateral;
+          }
+        patch.data.reinit(names.size() + 3, dealii::Utilities::pow(n + 1, dim));
         std::vector<double> values;
-        for (unsigned int p = 0; p < n_points; ++p)
+        for (unsigned int p = 0; p < patch.data.size(1); ++p)
           {
             values.clear();
             const Eigen::Vector3d position = draw(p, values);
@@ -78,8 +82,20 @@ namespace Debond
           }
       }
 
+      std::string
+      vtu()
+      {
+        dealii::DataOutBase::VtkFlags flags;
+        flags.print_date_and_time = false;
+        flags.compression_level   = flags.best_speed;
+        this->set_flags(flags);
+        Classic<std::ostringstream> text;
+        this->write_vtu(text);
+        return text.str();
+      }
+
     private:
-      using Patch = dealii::DataOutBase::Patch<2, 3>;
+      using Patch = dealii::DataOutBase::Patch<dim, 3>;
       using Range = std::tuple<
         unsigned int,
         unsigned int,
@@ -102,7 +118,6 @@ namespace Debond
         return ranges;
       }
 
-      const unsigned int       n_pieces;
       std::vector<Patch>       patches;
       std::vector<std::string> names;
       std::vector<Range>       ranges; ///< vectors
@@ -295,26 +310,58 @@ namespace Debond
 
 
 
-    /** Names and numbers of components. */
-    std::vector<std::pair<std::string, unsigned int>>
+    Fields
     fields_of(const InterfaceLaw &law)
     {
-      std::vector<std::pair<std::string, unsigned int>> fields{
-        {"pressure_MPa", 1},
-        {"traction_MPa", 3},
-        {"gap_mm", 1},
-        {"slip_mm", 1},
-        {"phi_0", 1},
-        {"phi", 1},
-        {"mu", 1},
-        {"state", 1},
-        {"displacement", 3}};
+      Fields fields{{"pressure_MPa", 1},
+                    {"traction_MPa", 3},
+                    {"gap_mm", 1},
+                    {"slip_mm", 1},
+                    {"phi_0", 1},
+                    {"phi", 1},
+                    {"mu", 1},
+                    {"state", 1},
+                    {"displacement", 3}};
       if (law.pulls())
         fields.insert(fields.end(),
                       {{"left_by_opening", 1},
                        {"left_by_slip", 1},
                        {"mode_deg", 1}});
       return fields;
+    }
+
+
+
+    /** Appends the values of those fields at a place between points of all
+     *  elements, and of its @p own element. */
+    void
+    append_fields(std::vector<double>           &values,
+                  const ContactInterface        &interface,
+                  const QuadratureGrid::Stencil &stencil,
+                  const QuadratureGrid::Stencil &own,
+                  const Eigen::Vector3d         &displacement)
+    {
+      const InterfaceLaw         &law = interface.get_law();
+      Eigen::Matrix<double, 6, 1> continuous =
+        Eigen::Matrix<double, 6, 1>::Zero();
+      for (unsigned int a = 0; a < 4; ++a)
+        continuous +=
+          stencil.weight[a] * continuous_values(interface, *stencil.point[a]);
+      append_values(values, continuous);
+      for (const double value : bonding_values(law, stencil, own))
+        values.push_back(value);
+      values.push_back(static_cast<double>(interface.status(*stencil.nearest)));
+      append_values(values, displacement);
+      if (law.pulls())
+        {
+          const BondLeft left =
+            law.left_by_each(history_under_implant(stencil));
+          const PointTraction traction{continuous[0], continuous.segment<3>(1)};
+          append_values(values,
+                        Eigen::Vector3d(left.by_opening,
+                                        left.by_slip,
+                                        traction.mode_deg()));
+        }
     }
   } // namespace
 
@@ -326,55 +373,58 @@ namespace Debond
                 const Chuck            &chuck)
   {
     const NurbsSurface  &surface = slave.surface();
-    const InterfaceLaw  &law     = interface.get_law();
     const ControlNet     u       = control_point_displacement(slave, chuck);
     const QuadratureGrid grid(interface, surface);
     SurfaceBasis         basis;
-    SurfaceGeometry      position, displacement;
     const unsigned int   n = n_pieces(surface, 96, 4, 16);
     const auto           corners =
       dealii::QIterated<2>(dealii::QTrapezoid<1>(), n).get_points();
-    DrawnFace face(fields_of(law), n);
+    DrawnFace<2> face(fields_of(interface.get_law()));
     for (unsigned int element = 0; element < surface.n_elements(); ++element)
-      face.add_element([&](const unsigned int k, std::vector<double> &values) {
+      face.add(n, [&](const unsigned int k, std::vector<double> &values) {
         const Eigen::Vector2d xi =
           parameters_at(surface.element_bounds(element), corners[k]);
         surface.evaluate_in_element(element, xi, basis, false);
-        contract(basis, surface.control_points(), false, position);
-        contract(basis, u, false, displacement);
-
-        const auto                  stencil = grid.stencil(element, xi, false);
-        Eigen::Matrix<double, 6, 1> continuous =
-          Eigen::Matrix<double, 6, 1>::Zero();
-        for (unsigned int a = 0; a < 4; ++a)
-          continuous +=
-            stencil.weight[a] * continuous_values(interface, *stencil.point[a]);
-        append_values(values, continuous);
-        for (const double value :
-             bonding_values(law, stencil, grid.stencil(element, xi, true)))
-          values.push_back(value);
-        values.push_back(
-          static_cast<double>(interface.status(*stencil.nearest)));
-        append_values(values, displacement.y);
-        if (law.pulls())
-          {
-            const BondLeft left =
-              law.left_by_each(history_under_implant(stencil));
-            const PointTraction traction{continuous[0],
-                                         continuous.segment<3>(1)};
-            append_values(values,
-                          Eigen::Vector3d(left.by_opening,
-                                          left.by_slip,
-                                          traction.mode_deg()));
-          }
-        return position.y;
+        append_fields(values,
+                      interface,
+                      grid.stencil(element, xi, false),
+                      grid.stencil(element, xi, true),
+                      interpolate(basis, u));
+        return Eigen::Vector3d(interpolate(basis, surface.control_points()));
       });
-    dealii::DataOutBase::VtkFlags flags;
-    flags.print_date_and_time = false;
-    flags.compression_level   = flags.best_speed;
-    face.set_flags(flags);
-    Classic<std::ostringstream> text;
-    face.write_vtu(text);
-    return text.str();
+    return face.vtu();
+  }
+
+
+
+  std::string
+  points_vtu(const Body             &slave,
+             const ContactInterface &interface,
+             const Chuck            &chuck)
+  {
+    const ControlNet        u = control_point_displacement(slave, chuck);
+    std::vector<SlavePoint> images;
+    const auto             &points = interface.points_of_all_sectors(images);
+    Fields                  fields = fields_of(interface.get_law());
+    fields.insert(
+      fields.end(),
+      {{"area_mm2", 1}, {"force_N", 3}, {"moment_Nmm", 3}, {"energy_Nmm", 1}});
+    DrawnFace<0> drawn(fields);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      drawn.add(0, [&](const unsigned int, std::vector<double> &values) {
+        const SlavePoint             &point = points[q];
+        const PointLoad               load  = interface.load(q, chuck.centre());
+        const QuadratureGrid::Stencil itself{{{&point, &point, &point, &point}},
+                                             {{1., 0., 0., 0.}},
+                                             &point};
+        append_fields(
+          values, interface, itself, itself, interpolate(point.basis, u));
+        values.push_back(point.JxW);
+        append_values(values, load.force);
+        append_values(values, load.moment);
+        values.push_back(load.energy);
+        return point.X;
+      });
+    return drawn.vtu();
   }
 } // namespace Debond

@@ -29,7 +29,7 @@ namespace Debond
            "(torque|reactions|curve|curve_at|reference|auto|bonding|profiles|"
            "friction_law|maps|correlations|profile|fit(-[0-9]+)?)\\.csv|"
            "calibration\\.json|fitted(-[0-9]+)?\\.prm|evaluations\\.jsonl|"
-           "(bulk|interface)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
+           "(bulk|interface|points)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :
          std::vector<fs::path>(fs::begin(entries), fs::end(entries)))

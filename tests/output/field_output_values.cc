@@ -120,6 +120,7 @@ struct Model
   {
     chuck.prescribe(time);
     interface.evaluate(configuration(), ContactPointMode());
+    interface.commit(configuration());
   }
 };
 
@@ -365,7 +366,10 @@ main()
                                  "bulk.pvd",
                                  "interface-0000.vtu",
                                  "interface-0001.vtu",
-                                 "interface.pvd"};
+                                 "interface.pvd",
+                                 "points-0000.vtu",
+                                 "points-0001.vtu",
+                                 "points.pvd"};
   for (const std::string name : {"results/fields", "results/again"})
     {
       output.directory = name;

@@ -53,6 +53,7 @@ namespace
                                    "auto.csv",
                                    "bulk.pvd",
                                    "interface-0012.vtu",
+                                   "points-0012.vtu",
                                    "repetition-2.json",
                                    "rung-1/parameters.prm",
                                    "my_picture.png",

@@ -77,8 +77,9 @@ namespace Debond
     // mu is mu_ub where the bond is whole and mu_b where it is gone. phi never
     // rises, since g_s never falls and s never rises: damage does not heal.
     // phi_0 is that of the point, 0 if its bond has been broken by opening. mu
-    // at g_s^n instead would leave a torque up to 9 % too high while the bond
-    // softens in 50 steps, right at its maximum and at the end
+    // at g_s^n instead would leave the torque of the main scene in 50 steps too
+    // high by up to 4.4 % of the largest while the bond softens, right at its
+    // maximum and at the end
     // (doc/explanation/contact.md, Stick and slip).
     FrictionCoefficient
     of_decay(const double phi_0, const double s, const double slope) const

@@ -78,6 +78,15 @@ namespace Debond
     }
   };
 
+  /** What the implant passes on to the bone at a point, and what the springs
+   *  there store. */
+  struct PointLoad
+  {
+    Eigen::Vector3d force  = Eigen::Vector3d::Zero(); ///< [N]
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero(); ///< [N mm]
+    double          energy = 0;                       ///< [N mm]
+  };
+
   /** How a point has moved in the step in which it opens. */
   struct OpeningMotion
   {
@@ -314,6 +323,10 @@ namespace Debond
      *  is held [MPa]. */
     PointTraction
     traction(const SlavePoint &point) const;
+    /** Of number @p q of the points of all sectors in the accepted state, with
+     *  the moment about @p centre: the sums are those of the chuck. */
+    PointLoad
+    load(unsigned int q, const Eigen::Vector3d &centre) const;
     /** How compliant the bodies are against tractions that open the bond, at
      *  most, in the trial state, with the chuck at rest [mm/MPa]: times the
      *  softening of a full bond it is less than 1 where the state is unique.

@@ -107,9 +107,10 @@ namespace Debond
 
   /**
    * Two rigid bodies on the elastic frictional interface: a disk is pressed
-   * down by a depth d and turned by an angle theta about its axis. This is the
-   * exact solution of the interface law for rigid bodies, so the finite element
-   * program must reproduce it up to quadrature.
+   * down by a depth d and turned by an angle theta about its axis. The finite
+   * element program must reproduce it up to quadrature, and to 3/2 (mu p /
+   * eps_t R)^2 of the torque: here the gap of a sliding point does not turn
+   * with the path (doc/explanation/closed_forms.md).
    *
    * The pressure p is eps_n d. A point at radius r sticks with the
    * traction t = eps_t r theta while that is at most mu(0) p. Beyond, its path

@@ -15,11 +15,12 @@ namespace Debond
   class ResultDirectory;
 
   /**
-   * Writes what ParaView shows: bulk-NNNN.vtu and interface-NNNN.vtu with the
-   * series bulk.pvd and interface.pvd, which are replaced as a whole after each
-   * call, so that the files of an interrupted run can be opened. No file holds
-   * a date: equal runs write equal files. Several ranks write a piece of the
-   * bulk each, bulk-NNNN.RANK.vtu, joined by bulk-NNNN.pvtu.
+   * Writes what ParaView shows: bulk-NNNN.vtu, interface-NNNN.vtu and
+   * points-NNNN.vtu with the series bulk.pvd, interface.pvd and points.pvd,
+   * which are replaced as a whole after each call, so that the files of an
+   * interrupted run can be opened. No file holds a date: equal runs write equal
+   * files. Several ranks write a piece of the bulk each, bulk-NNNN.RANK.vtu,
+   * joined by bulk-NNNN.pvtu.
    *
    * Points lie at their *reference* positions X, and the array `displacement`
    * is x - X in space, the rigid motion of the implant included: the filter
@@ -28,24 +29,9 @@ namespace Debond
    * in pieces, by polynomials that interpolate the model (1e-5 mm for a coin);
    * the contact surface is drawn as the model has it, in more pieces.
    *
-   * Arrays of the bulk (both bodies):
-   *  - displacement [mm]; displacement_in_frame, v in the body's own frame
-   * [mm];
-   *  - von_Mises_MPa and stress_MPa, the Cauchy stress in space as a tensor
-   * (see Bulk::vertex_stress(); zero in a rigid body);
-   *  - body: 0 bone, 1 implant.
-   *
-   * Arrays of the interface (the slave surface):
-   *  - pressure_MPa; traction_MPa, the tangential traction that acts *on the
-   *    slave* (minus ContactPointResult::tangential_traction);
-   *  - gap_mm, normal, negative in contact; 0 where `state` is 0 and the point
-   *    has no partner because it lies beyond the master's edge;
-   *  - slip_mm, the accumulated sliding distance g_s; phi_0, phi, mu;
-   *  - state: 0 open, 1 stick, 2 slip, 3 pulled;
-   *  - of laws with strength in tension left_by_opening, left_by_slip and
-   *    mode_deg (BondLeft, PointTraction);
-   *  - displacement [mm].
-   * They are known at the quadrature points. Between these they are
+   * doc/reference/results.md says which arrays there are. Those of the
+   * interface are known at the quadrature points, which points-NNNN.vtu has as
+   * they are, with what is summed up (PointLoad). Between these they are
    * interpolated bilinearly in the parameters of the surface, across the
    * borders of elements, and constant beyond the outermost points, so that
    * nothing overshoots; `state` is that of the nearest point. phi_0, which may
@@ -63,9 +49,8 @@ namespace Debond
                 const ContactInterface &interface,
                 const Chuck            &chuck);
 
-    /** Writes the trial state (the accepted one, if called after commit()) as
-     *  the next file of both series. Throws WriteError if that is impossible.
-     *  Collective. */
+    /** Writes the accepted state as the next file of each series. Throws
+     * WriteError if that is impossible. Collective. */
     void
     write(double time);
 
@@ -114,5 +99,10 @@ namespace Debond
   interface_vtu(const Body             &slave,
                 const ContactInterface &interface,
                 const Chuck            &chuck);
+  /** The same of the quadrature points. */
+  std::string
+  points_vtu(const Body             &slave,
+             const ContactInterface &interface,
+             const Chuck            &chuck);
 } // namespace Debond
 #endif

@@ -15,13 +15,9 @@
 namespace Debond
 {
   /**
-   * Pressure, sliding distance, bond, friction coefficient and state on the
-   * contact face, of laws with strength in tension also what opening and slip
-   * have left of the bond and the mode of the traction, at the rows where
-   * something happens: sliding begins, half and all of what is in contact
-   * slides, half of the bond and all of it is broken, the load is largest, the
-   * run ends. Written to maps.csv at the end, as values on a grid of 48 x 48
-   * places for pictures.
+   * maps.csv: the contact face at the rows where something happens, written at
+   * the end on a grid of places for pictures; doc/reference/results.md says
+   * what and when.
    */
   class InterfaceMaps
   {

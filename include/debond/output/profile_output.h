@@ -53,17 +53,8 @@ namespace Debond
 
 
   /**
-   * Tables of the interface for plotting, as CSV:
-   *
-   * profiles.csv holds every slave point (of closed forms: points along a
-   * radius) at the rows whose angle first reaches one of `Output / Profile
-   * angles`: reference position, pressure, magnitude of the tangential
-   * traction, sliding distance, bonding state, friction coefficient, state,
-   * area that the point stands for, what opening and slip have left of the
-   * bond, and the mode of the traction.
-   *
-   * friction_law.csv holds phi and mu over the sliding distance g_s, if
-   * `Output / Friction law curve` asks for it.
+   * profiles.csv, an InterfacePoint a line at the rows whose angle first
+   * reaches one of `Output / Profile angles`, and friction_law.csv.
    */
   class ProfileOutput
   {

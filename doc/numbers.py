@@ -25,7 +25,6 @@ import os
 import re
 import subprocess
 import sys
-import time
 import zlib
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))

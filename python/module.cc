@@ -246,7 +246,17 @@ namespace
       .def_property_readonly("name", &SceneEntry::full_name)
       .def_readonly("value", &SceneEntry::value)
       .def_readonly("place", &SceneEntry::place)
-      .def("refuse", &SceneEntry::refuse);
+      .def("refuse", &SceneEntry::refuse)
+      .def(py::pickle(
+        [](const SceneEntry &e) {
+          return py::make_tuple(e.subsections, e.name, e.value, e.place);
+        },
+        [](const py::tuple &e) {
+          return SceneEntry{e[0].cast<std::vector<std::string>>(),
+                            e[1].cast<std::string>(),
+                            e[2].cast<std::string>(),
+                            e[3].cast<std::string>()};
+        }));
     module.def("read_file", read_scene_file);
     module.def("read_text", read_scene_text);
     module.def("changed",

@@ -1,9 +1,11 @@
 """The module of Python against the program, its own steps against expressions, a law as a function against Eq. (13); what
 mistakes are answered with. Usage: python.py DEBOND, where `import debond` finds the module."""
 
+import copy
 import json
 import math
 import os
+import pickle
 import subprocess
 import sys
 import threading
@@ -277,8 +279,49 @@ def check_warnings():
         check("  one of its own", len(without_effect) == 1)
 
 
+def check_copies():
+    """Pickled scenes, a law among them, run as what they are copies of; they live without it."""
+    print("Copies")
+    law = debond.Scene(text=coin, entries={"Load steps/Steps": "1, 6"}, law=(lambda slip: max(0, 1 - slip / 0.05), 0.06))
+    expected = law.run().rows["torque_Nmm"]
+    copies = [pickle.loads(pickle.dumps(law)), copy.deepcopy(law), debond.Scene(law)]
+    del law
+    check("  of a scene with a law", all(numpy.array_equal(one.run().rows["torque_Nmm"], expected) for one in copies))
+    once = debond.Scene(text=coin, entries={"Load steps/Steps": "1, 6"})
+    alone = debond.Scene(once, {"Interface/Characteristic slip distance": 0.05}).run().rows["torque_Nmm"]
+    many = debond.run_many([{"Interface/Characteristic slip distance": 0.05}], base=once)[0].rows["torque_Nmm"]
+    again = debond.Scene(text=pickle.loads(pickle.dumps(once)).parameters,
+                         entries={"Interface/Characteristic slip distance": 0.05}).run().rows["torque_Nmm"]
+    check("  of a scene that is the base of others", numpy.array_equal(alone, many) and numpy.array_equal(alone, again))
+    error = pickle.loads(pickle.dumps(debond.run_many([{"Bone/Cells": "x"}], base=once)[0]))
+    check("  of a mistake", error.entry == "Bone / Cells" and "expected" in str(error))
+
+
+def check_latin_1():
+    """Scenes and what they include may be in Latin-1, as German editors of Windows write them; results are in UTF-8."""
+    title = "B\xfcchse, 10 \xb5m"
+    with open("latin_1.prm", "w", encoding="latin-1") as file:
+        file.write("include latin_1_base.prm\nset Title = " + title + "  # \xfc\n")
+    with open("latin_1_base.prm", "w", encoding="latin-1") as file:
+        file.write("# \xe4\nset Model = foundation\nsubsection Chuck\n subsection Press\n  set Value = 0.005\n end\n subsection Rotation z\n  set Value = 5 * t\n end\nend\n")
+    scene = debond.Scene("latin_1.prm")
+    for name, more in (("file", []), ("option", ["--set", "Title=" + title])):
+        command = [text.encode("latin-1") for text in (program, "latin_1.prm", *more, "--set", "Output/Directory=latin_1")]
+        done = subprocess.run(command, capture_output=True)
+        with open("latin_1/parameters.prm", "rb") as file:
+            check(f"a title in Latin-1, of the {name}", done.returncode == 0 and f"set Title = {title}\n".encode() in file.read())
+    check("the same from Python", f"set Title = {title}\n" in scene.parameters and len(scene.run().rows["angle_deg"]) > 10)
+    with open("latin_1_fit.prm", "w", encoding="latin-1") as file:
+        file.write("include latin_1.prm\nset Task = calibrate\nsubsection Interface\n set Friction coefficient broken = <<0.3 in 0.1..0.8>>\nend\n"
+                   "subsection Output\n set Reference curve = latin_1/torque.csv\n set Directory = latin_1_fit\nend\n")
+    done = subprocess.run([program, "latin_1_fit.prm"], capture_output=True)
+    check("a fit in Latin-1", done.returncode == 0 and done.stderr == b"" and os.path.exists("latin_1_fit/calibration.json"))
+
+
 check_program()
 check_warnings()
+check_copies()
+check_latin_1()
 check_drive()
 check_law()
 check_more()

@@ -71,10 +71,18 @@ namespace Debond
 
 
 
-  std::vector<SurfaceQuadraturePoint>
-  surface_quadrature(const NurbsSurface &surface, const unsigned int n)
+  dealii::Quadrature<1>
+  PointsPerElement::along() const
   {
-    const dealii::QGauss<2>             gauss(n);
+    return dealii::QIterated<1>(dealii::QGauss<1>(n / pieces), pieces);
+  }
+
+
+
+  std::vector<SurfaceQuadraturePoint>
+  surface_quadrature(const NurbsSurface &surface, const PointsPerElement &n)
+  {
+    const dealii::Quadrature<2>         gauss(n.along());
     std::vector<SurfaceQuadraturePoint> points;
     points.reserve(surface.n_elements() * gauss.size());
     for (unsigned int element = 0; element < surface.n_elements(); ++element)

@@ -15,7 +15,7 @@ namespace Debond
   BondingPattern::BondingPattern(const BondingParameters &parameters,
                                  const BodyParameters    &implant,
                                  const NurbsSurface      &surface,
-                                 const unsigned int       n)
+                                 const PointsPerElement  &n)
     : surface(surface)
     , n(n)
     , by_element(parameters.resolution == BondingResolution::element)
@@ -41,7 +41,7 @@ namespace Debond
       }
     summary.mean = summary.bonded_area / summary.area;
 
-    const dealii::QGauss<1> gauss(n);
+    const dealii::Quadrature<1> gauss = n.along();
     for (unsigned int q = 0; q < n; ++q)
       shares.push_back((q == 0 ? 0. : shares.back()) + gauss.weight(q));
     count_patches();
@@ -176,11 +176,12 @@ namespace Debond
   std::vector<unsigned int>
   BondingPattern::parts_beside(const unsigned int part) const
   {
-    const unsigned int m       = by_element ? 1 : n; // parts along an element
-    const unsigned int element = part / (m * m), local = part % (m * m);
+    const PointsPerElement along   = by_element ? PointsPerElement(1) : n;
+    const unsigned int     m       = along; // parts along an element
+    const unsigned int     element = part / (m * m), local = part % (m * m);
     const std::array<unsigned int, 2> index{{local % m, local / m}};
-    const auto                        box = surface.element_bounds(element);
-    const dealii::QGauss<1>           gauss(m);
+    const auto                        box   = surface.element_bounds(element);
+    const dealii::Quadrature<1>       gauss = along.along();
     std::vector<unsigned int>         result;
     for (unsigned int d = 0; d < 2; ++d)
       for (const bool upwards : {false, true})

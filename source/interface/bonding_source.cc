@@ -65,20 +65,18 @@ namespace Debond
     /** By element the area means of @p function, by at least @p n x @p n and
      *  some @p n_across quadrature points across the face; else its values. */
     std::vector<double>
-    values_of(const PlaceFunction  &function,
-              const BodyParameters &implant,
-              const bool            by_element,
-              const NurbsSurface   &surface,
-              const unsigned int    n,
-              const unsigned int    n_across)
+    values_of(const PlaceFunction    &function,
+              const BodyParameters   &implant,
+              const bool              by_element,
+              const NurbsSurface     &surface,
+              const PointsPerElement &n,
+              const unsigned int      n_across)
     {
       const unsigned int across =
         n * surface.n_elements_across(); // points of one copy
-      const dealii::QIterated<2> quadrature(dealii::QGauss<1>(n),
-                                            by_element ?
-                                              (n_across + across - 1) / across :
-                                              1);
-      std::vector<double>        values;
+      const dealii::QIterated<2> quadrature(
+        n.along(), by_element ? (n_across + across - 1) / across : 1);
+      std::vector<double> values;
       for (unsigned int element = 0; element < surface.n_elements(); ++element)
         {
           double sum = 0., area = 0.;
@@ -106,7 +104,7 @@ namespace Debond
                     const BodyParameters    &implant,
                     const bool               by_element,
                     const NurbsSurface      &surface,
-                    const unsigned int       n,
+                    const PointsPerElement  &n,
                     std::string             &remark)
     {
       GreyImage            image = read_grey_image(parameters.file,
@@ -318,7 +316,7 @@ namespace Debond
   bonding_from_source(const BondingParameters            &parameters,
                       const BodyParameters               &implant,
                       const NurbsSurface                 &surface,
-                      const unsigned int                  n,
+                      const PointsPerElement             &n,
                       const std::vector<Eigen::Vector2d> &centres,
                       std::string                        &remark)
   {

@@ -216,6 +216,81 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** How far each element of several may be off the surface that all stand
+     *  for [mm]. Plane facets of a circle bulge by 1 - cos(theta/2) of its
+     *  radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above the
+     *  plane of its neighbour: three times that or more, up to theta = 60
+     *  degrees, from where on there is an edge. Both directions add up.
+     *  Elements that are curved themselves: a twentieth. */
+    std::vector<double>
+    errors_of_facets(const NurbsSurface &surface)
+    {
+      std::vector<double> result(surface.n_elements(), 0.);
+      const auto          middle = [&surface](const unsigned int e) {
+        const auto bounds = surface.element_bounds(e);
+        return Eigen::Vector2d(0.5 * (bounds[0] + bounds[1]));
+      };
+      for (unsigned int e = 0; e < result.size() && !surface.is_one_patch();
+           ++e)
+        {
+          SurfaceBasis    basis;
+          SurfaceGeometry here;
+          surface.evaluate_in_element(e, middle(e), basis, false);
+          contract(basis, surface.control_points(), false, here);
+          const Eigen::Vector3d n = here.a1.cross(here.a2).normalized();
+          for (const unsigned int d : {0, 1})
+            {
+              double highest = 0.;
+              for (const unsigned int end : {0, 1})
+                {
+                  Eigen::Vector2d xi = middle(e);
+                  xi[d]              = surface.element_bounds(e)[end][d];
+                  for (const auto &place : surface.places_beside(e, xi))
+                    {
+                      const Eigen::Vector3d way =
+                        surface.point(middle(place.element)) - here.y;
+                      const double height = std::abs(n.dot(way));
+                      if (height < 0.5 * way.norm())
+                        highest = std::max(highest, height);
+                    }
+                }
+              result[e] += highest / (surface.degree() == 1 ? 3. : 60.);
+            }
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  // Where the bodies are made, whatever the chuck and a press fit do at the
+  // first time. A gap that facets account for is none to a bond, which would
+  // else hold where meshes match only.
+  void
+  ContactInterface::face_at_rest(
+    SlavePoint                               &point,
+    const std::array<std::vector<double>, 2> &errors)
+  {
+    const NurbsSurface &surface = mesh[master_side()]->surface();
+    const Projection    rest    = project({&surface,
+                                           &surface.control_points(),
+                                           mesh[master_side()]->outward_sign()},
+                                    point.X,
+                                    &point.accepted.xi);
+    if (!rest.faces)
+      return;
+    const double facets = errors[slave][point.element] +
+                          errors[master_side()][surface.element_of(rest.xi)];
+    at_start.facets  = std::max(at_start.facets, facets);
+    at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
+    if (law.joint->pulls() && std::abs(rest.height) <= facets)
+      point.gap_at_start = rest.height;
+  }
+
+
+
   // "At initial contact the interacting point is the closest projection point"
   // (paper, after Eq. 28).
   //
@@ -233,15 +308,24 @@ namespace Debond
     // From one point to the next: a search over the whole master asks all of
     // its elements.
     const SlavePoint *neighbour = nullptr;
+    at_start                    = {};
+    std::array<std::vector<double>, 2> errors;
+    for (const Side side : both_sides)
+      errors[side] = errors_of_facets(mesh[side]->surface());
     for (SlavePoint &point : points)
       {
         if (neighbour != nullptr)
           point.accepted.xi = neighbour->accepted.xi;
         const Projection projection =
           project_accepted(point, configuration, neighbour != nullptr);
+        face_at_rest(point, errors);
+        if (std::abs(point.gap_at_start) <= touch_tolerance)
+          point.gap_at_start = 0.; // rounding
         // faces that touch have grown together; what overlaps has touched once
         // it is in equilibrium
-        if (projection.faces && std::abs(projection.height) <= touch_tolerance)
+        point.trial.normal_gap = projection.height - point.gap_at_start;
+        if (projection.faces &&
+            std::abs(point.trial.normal_gap) <= touch_tolerance)
           {
             point.accepted.joined     = true;
             point.accepted.normal_gap = 0.;
@@ -252,6 +336,18 @@ namespace Debond
           neighbour = &point;
       }
     assign_bonding();
+    for (const SlavePoint &point : points)
+      {
+        at_start.facing_area += point.accepted.has_partner ? point.JxW : 0.;
+        at_start.bonding_area += point.phi_0 * point.JxW;
+        if (!point.accepted.has_partner || point.phi_0 == 0. ||
+            point.trial.normal_gap > touch_tolerance)
+          continue;
+        ++at_start.n_bonded;
+        at_start.bonded_area += point.phi_0 * point.JxW;
+        at_start.largest_gap =
+          std::max(at_start.largest_gap, std::abs(point.gap_at_start));
+      }
   }
 
 
@@ -318,6 +414,7 @@ namespace Debond
                  const Eigen::Vector3d        &x,
                  ContactPointResult           &result)
     {
+      mode.gap_at_start = point.gap_at_start;
       if (law.slip_direction == SlipDirection::integrated)
         {
           const RigidMotion::Normal normal =
@@ -452,6 +549,7 @@ namespace Debond
     CohesiveShare    &share = shares[q];
     share.update(*law.joint,
                  point.begin(*law.joint, mode),
+                 point.gap_at_start,
                  interpolate(point.basis, configuration.side[slave].positions),
                  master(configuration));
     if (!share.holds)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace Debond
 {
@@ -27,9 +28,11 @@ namespace Debond
       },
       Allowed::whole_number(1, most_points).or_word("auto"),
       "Gauss points per direction on each surface element of the slave. "
-      "`auto': 5; if a body has splines 6 (5 if both have fitted cells), or "
-      "as many as keep the distance between points below the width of the "
-      "other body's cells.");
+      "`auto': 5; if a body has no trilinear cells 6 (5 if both have fitted "
+      "cells), or as many as keep the distance between points below the width "
+      "of the other body's cells. Around a bore, and in files, where sides of "
+      "cells of both bodies divide the slave's into 2 to 4 equal parts: 3 in "
+      "each.");
     table.add("Normal stiffness",
               normal_penalty,
               Allowed::number_between(1e-6, 1e15, "MPa/mm"),
@@ -69,14 +72,49 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Of equal pieces of a slave element the fewest whose ends meet all sides
+     *  of finer elements of the master, where both faces are divided alike
+     *  around and along; 1 where that is more than four. */
+    unsigned int
+    pieces_of_element(const BodyParameters &mine, const BodyParameters &other)
+    {
+      const bool from_file = mine.shape == BodyShape::file;
+      if (!mine.mesh || !other.mesh ||
+          from_file != (other.shape == BodyShape::file))
+        return 1;
+      unsigned int result = 1;
+      for (const unsigned int d : {0, 2})
+        {
+          const unsigned int n     = from_file ? mine.lattice_of_cells()[0] :
+                                                 mine.cells[d],
+                             finer = from_file ? other.lattice_of_cells()[0] :
+                                                 other.cells[d];
+          if (finer > n)
+            result = std::lcm(result, finer / std::gcd(n, finer));
+        }
+      return result <= 4 ? result : 1;
+    }
+  } // namespace
+
+
+
   // Six: with splines the error of five is as large as that of the bulk, but
   // where elements are small at the rim (doc/evidence/speed_and_accuracy.md).
-  unsigned int
+  // Functions of the master have kinks at the sides of its elements: three
+  // points on either side see them exactly, many on both hardly.
+  PointsPerElement
   InterfaceParameters::points_per_element(const BodyParameters &bone,
                                           const BodyParameters &implant) const
   {
     if (quadrature_points > 0)
       return quadrature_points;
+    const unsigned int pieces = slave == Side::bone ?
+                                  pieces_of_element(bone, implant) :
+                                  pieces_of_element(implant, bone);
+    if (pieces > 1)
+      return {3 * pieces, pieces};
     if (bone.element == ElementKind::trilinear &&
         implant.element == ElementKind::trilinear)
       return 5;
@@ -99,7 +137,12 @@ namespace Debond
     double                ratio = 0.;
     for (const unsigned int d : {0, 1})
       if (!other.is_rigid())
-        ratio = std::max(ratio, mine.cell_width(d) / other.cell_width(d));
+        ratio = std::max(ratio,
+                         // faces around each other are as large
+                         mine.mesh && other.mesh ?
+                           double(other.lattice_of_cells()[d]) /
+                             mine.lattice_of_cells()[d] :
+                           mine.cell_width(d) / other.cell_width(d));
     return std::ceil(ratio - 1e-9);
   }
 

@@ -291,6 +291,18 @@ namespace Debond
 
 
 
+  std::string
+  FacesAtStart::in_words() const
+  {
+    return "bonded in tension: " + std::to_string(n_bonded) + " points, " +
+           to_text(bonded_area, 4) + " of " + to_text(bonding_area, 4) +
+           " mm^2; gaps at the start of up to " + to_text(largest_gap, 2) +
+           " mm are taken off (facets account for " + to_text(facets, 2) +
+           " mm)";
+  }
+
+
+
   // Where the last evaluate() failed, in parameters of the slave's patch, which
   // say which element it is; and how far the point had slid, which says which
   // part of the law it was on.

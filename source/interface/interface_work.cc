@@ -179,9 +179,10 @@ namespace Debond
     SurfaceGeometry     geometry;
     surface.surface->evaluate(point.accepted.xi, basis, false);
     contract(basis, *surface.positions, false, geometry);
-    return {MasterNormal(geometry, surface.outward_sign).n,
+    const Eigen::Vector3d n = MasterNormal(geometry, surface.outward_sign).n;
+    return {n,
             interpolate(point.basis, configuration.side[slave].positions) -
-              geometry.y,
+              geometry.y - point.gap_at_start * n,
             chuck.over_master(interpolate(point.basis, before), slave)};
   }
 

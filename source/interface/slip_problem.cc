@@ -39,7 +39,8 @@ namespace Debond
     , gap(x - geometry.y)
     , trial_gap(x - y_old)
   {
-    g_n = normal.n.dot(gap);
+    height = normal.n.dot(gap);
+    g_n    = height - friction.gap_at_start;
     if (law.slip_direction == SlipDirection::integrated)
       integrate_slip();
     else
@@ -60,7 +61,7 @@ namespace Debond
   {
     axes.col(0)                    = geometry.a1.normalized();
     axes.col(1)                    = normal.n.cross(axes.col(0));
-    const Vector3d          g_t    = gap - g_n * normal.n;
+    const Vector3d          g_t    = gap - height * normal.n;
     const double            length = g_t.norm();
     const InterfaceResponse held =
       friction.law.respond(friction.start, g_n, 0.);
@@ -143,7 +144,7 @@ namespace Debond
         change.gap     = by.col(5) * along_gap.transpose();
         change.turn    = by.col(6);
         change.normal =
-          -n.dot(g) * held - n.dot(trial_gap - g) * moved - g_n * change.gap;
+          -n.dot(g) * held - n.dot(trial_gap - g) * moved - height * change.gap;
       }
     else
       find_changes_of_direction(by_distance);

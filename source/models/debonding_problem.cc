@@ -174,6 +174,9 @@ namespace Debond
             write_file(directory.file("bonding.csv"), bonding.table());
             console.headline("Initial bonding: " + bonding.description());
           }
+        if (scene.interface.joint()->pulls())
+          console.headline(
+            simulation.system().interface.faces_at_start().in_words());
         if (!simulation.rows().empty())
           {
             const TorqueRow &last = simulation.rows().back();
@@ -468,6 +471,9 @@ namespace Debond
         << " MB" << (Ranks::number() > 1 ? " in each process\n" : "\n")
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << interface.bonding().description() << '\n'
+        << (interface.get_law().pulls() ?
+              interface.faces_at_start().in_words() + '\n' :
+              "")
         << (scene.load_steps.adaptive ? "adaptive steps, no larger than " : "")
         << scene.load_steps.n_steps() << " planned steps"
         << (scene.load_steps.adaptive ? "," : "") << " from time "

@@ -57,6 +57,24 @@ namespace Debond
              to_text(seen, 4) + " instead of " + to_text(report.mean, 4) +
              ": Slave = implant meets it exactly, more elements of the bone "
              "more closely"});
+      const FacesAtStart &faces = interface.faces_at_start();
+      if (faces.overlap > 1e-6 * scene.implant.characteristic_radius())
+        warnings.push_back(
+          {"overlap",
+           "the bodies overlap by up to " + to_text(faces.overlap, 3) +
+             " mm where they are made, which presses them apart: move one of "
+             "them; Interface / Interference is for press fits"});
+      // with the bone as slave points meet the rim as closely as they lie
+      const double beside = interface.implant_area() - faces.facing_area,
+                   little = interface.slave_side() == Side::bone ? 0.1 : 0.01;
+      if (beside > little * interface.implant_area())
+        warnings.push_back(
+          {"faces nothing",
+           to_text(beside, 4) + " of " + to_text(interface.implant_area(), 4) +
+             " mm^2 of the implant's contact face have no bone in front of "
+             "them at the start, and count in mean pressure and bonded area: "
+             "is it beside the bone, is the bone too short, or is a face left "
+             "out of contact?"});
       return warnings;
     }
   } // namespace

@@ -59,7 +59,8 @@ namespace Debond
     , box(scene.implant.geometry().box_of_face(scene.implant))
     , pulls(scene.interface.joint()->pulls())
     , n(scene.interface.slave == Side::implant ?
-          scene.interface.points_per_element(scene.bone, scene.implant) :
+          unsigned(
+            scene.interface.points_per_element(scene.bone, scene.implant)) :
           1)
   {}
 

@@ -143,13 +143,14 @@ write_msh(const Debond::BulkSpace &body,
 
 
 /** A coin of radius R and height H of cells in a square and four rings around
- *  it, halved @p n times. */
+ *  it, halved @p n times, with its contact face at the height @p lift. */
 inline void
 write_coin(const std::string &filename,
            const double       R,
            const double       H,
            const unsigned int n,
-           const unsigned int order)
+           const unsigned int order,
+           const double       lift = 0.)
 {
   using namespace dealii;
   Triangulation<2> disk;
@@ -193,7 +194,7 @@ write_coin(const std::string &filename,
     [&](const unsigned int cell, const Point<3> &p) {
       const Point<2> x =
         mapping.transform_unit_to_real_cell(bases[cell], {p[0], p[1]});
-      return Point<3>(x[0], x[1], bottoms[cell] + 0.5 * H * p[2]);
+      return Point<3>(x[0], x[1], lift + bottoms[cell] + 0.5 * H * p[2]);
     },
     filename,
     order);

@@ -6,6 +6,7 @@
 //   of the faces; of quadratic cells, the curve of splines.
 // - Points that slide over the ridges between faces: friction is mu N.
 
+#include <debond/models/simulation.h>
 #include <debond/output/torque_curve.h>
 
 #include <algorithm>
@@ -279,6 +280,52 @@ end
          1e-3);
 }
 
+// What is said of bodies that overlap where they are made, and of faces with no
+// bone in front of them.
+void
+faces_at_start()
+{
+  const auto faces_of = [](const std::string &what, const Overrides &entries) {
+    const Simulation simulation(Scene::from_text(torsion, entries));
+    std::cout << what << ":";
+    for (const Warning &warning : simulation.warnings())
+      std::cout << " [" << warning.check << "]";
+    std::cout << std::endl;
+    return simulation.system().interface.faces_at_start();
+  };
+  write_coin("coin.msh", 2.5, 3., 1, 1);
+  write_coin("low.msh", 2.5, 3., 1, 1, -0.1);
+  Overrides file{"Implant/Shape=file", "Implant/Mesh file=coin.msh"};
+  faces_of("a coin", file);
+  report(
+    "gap across the face of a coin",
+    std::abs(
+      faces_of("in the bone", {file[0], "Implant/Mesh file=low.msh"}).overlap -
+      0.1),
+    1e-12);
+  // a segment of the disk
+  report("area beside the bone",
+         std::abs(faces_of("half beside it", {"Chuck/Translation x/Value=6.5"})
+                      .facing_area /
+                    (6.25 * std::acos(0.1) - 0.25 * std::sqrt(6.25 - 0.0625)) -
+                  1.),
+         0.05);
+  report("half a pin",
+         std::abs(faces_of("a pin longer than its bone",
+                           {"Implant/Shape=pin",
+                            "Implant/Height=8",
+                            "Implant/Cells=16, 1, 4",
+                            "Bone/Shape=sleeve",
+                            "Bone/Outer radius=6",
+                            "Bone/Height=4",
+                            "Bone/Cells=16, 2, 2",
+                            "Chuck/Press/Value=0"})
+                      .facing_area /
+                    (M_PI * 5. * 4.) -
+                  1.),
+         1e-6);
+}
+
 // A pin that has grown into its sleeve, and the same as files, whose sides are
 // parabolas instead of circles: twisted while all sticks.
 void
@@ -340,6 +387,7 @@ test()
   small_face("neo-hookean",
              {"Bone/Material=neo-hookean", "Implant/Material=neo-hookean"});
   area();
+  faces_at_start();
   quadratic();
   ridges();
   pin();

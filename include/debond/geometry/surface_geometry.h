@@ -51,10 +51,29 @@ namespace Debond
                      unsigned int                 element,
                      const dealii::Quadrature<2> &quadrature);
 
-  /** @p n x @p n Gauss points in every element, element by element, first
-   *  parameter fastest. */
+  /** Quadrature points along each parameter of an element: as many Gauss points
+   *  in each of its equal pieces. */
+  struct PointsPerElement
+  {
+    PointsPerElement(const unsigned int n, const unsigned int pieces = 1)
+      : n(n)
+      , pieces(pieces)
+    {}
+    operator unsigned int() const
+    {
+      return n;
+    }
+    dealii::Quadrature<1>
+    along() const;
+
+  private:
+    unsigned int n, pieces; ///< n: of all pieces
+  };
+
+  /** @p n x @p n points in every element, element by element, first parameter
+   *  fastest. */
   std::vector<SurfaceQuadraturePoint>
-  surface_quadrature(const NurbsSurface &surface, unsigned int n);
+  surface_quadrature(const NurbsSurface &surface, const PointsPerElement &n);
 
 
 

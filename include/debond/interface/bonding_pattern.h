@@ -29,7 +29,7 @@ namespace Debond
     BondingPattern(const BondingParameters &parameters,
                    const BodyParameters    &implant,
                    const NurbsSurface      &surface,
-                   unsigned int             n);
+                   const PointsPerElement  &n);
 
     struct Part
     {
@@ -95,12 +95,12 @@ namespace Debond
     unsigned int
     point_at(unsigned int element, const Eigen::Vector2d &xi) const;
 
-    const NurbsSurface &surface;
-    const unsigned int  n;
-    const bool          by_element;
-    std::vector<Part>   all_parts;
-    std::vector<double> shares; ///< ends of the points' shares of [0,1]
-    Report              summary;
+    const NurbsSurface    &surface;
+    const PointsPerElement n;
+    const bool             by_element;
+    std::vector<Part>      all_parts;
+    std::vector<double>    shares; ///< ends of the points' shares of [0,1]
+    Report                 summary;
   };
 
   /** Refuses an expression, an image or a file that gives no pattern on this

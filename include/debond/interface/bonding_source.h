@@ -1,7 +1,7 @@
 #ifndef debond_interface_bonding_source_h
 #define debond_interface_bonding_source_h
 
-#include <debond/geometry/nurbs_surface.h>
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bonding_parameters.h>
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@ namespace Debond
   bonding_from_source(const BondingParameters            &parameters,
                       const BodyParameters               &implant,
                       const NurbsSurface                 &surface,
-                      unsigned int                        n,
+                      const PointsPerElement             &n,
                       const std::vector<Eigen::Vector2d> &centres,
                       std::string                        &remark);
 

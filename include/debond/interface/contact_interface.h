@@ -87,6 +87,22 @@ namespace Debond
     double          energy = 0;                       ///< [N mm]
   };
 
+  /** How the faces lie where the bodies are made, and what bonds there if the
+   *  law has strength in tension. */
+  struct FacesAtStart
+  {
+    double       facets  = 0; ///< gaps that facets account for, at most [mm]
+    double       overlap = 0; ///< beyond that, at most [mm]
+    double       facing_area = 0; ///< of the implant, with the chuck [mm^2]
+    unsigned int n_bonded    = 0; ///< points
+    double bonded_area = 0, bonding_area = 0; ///< integral of phi_0; wanted
+    double largest_gap = 0;                   ///< that is taken off [mm]
+
+    /** What bonds in tension, for people. */
+    std::string
+    in_words() const;
+  };
+
   /** How a point has moved in the step in which it opens. */
   struct OpeningMotion
   {
@@ -314,7 +330,7 @@ namespace Debond
       return sectors ? number_of_kept.size() : points.size();
     }
     /** Quadrature points per direction and slave surface element. */
-    unsigned int
+    const PointsPerElement &
     points_per_element() const
     {
       return n;
@@ -382,6 +398,12 @@ namespace Debond
     /** Sums over all points of the last evaluate(). */
     InterfaceSummary
     summarise() const;
+
+    const FacesAtStart &
+    faces_at_start() const
+    {
+      return at_start;
+    }
 
     /** Reference area of the implant's contact face by quadrature weights
      * [mm^2]. */
@@ -481,6 +503,11 @@ namespace Debond
     has_opened_beyond_strength(const SlavePoint &point) const;
     void
     assign_bonding();
+    /** Finds the gap at the start of a point that has its closest point. @p
+     *  errors: of the facets of both sides [mm]. */
+    void
+    face_at_rest(SlavePoint                               &point,
+                 const std::array<std::vector<double>, 2> &errors);
     Projection
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,
@@ -518,7 +545,7 @@ namespace Debond
     const Side                       slave;
     std::array<const BulkSpace *, 2> mesh;
     const bool                       master_is_level, master_is_flat;
-    const unsigned int               n; ///< points per direction, element
+    const PointsPerElement           n; ///< points per direction, element
     std::vector<SlavePoint>          points;
     /** Of both surfaces, if one sector stands for all; else null. */
     std::unique_ptr<const SectorsOfSurfaces> sectors;
@@ -527,6 +554,7 @@ namespace Debond
     /** Of each point, by laws that hold one; else empty. */
     std::vector<CohesiveShare>            shares;
     double                                area_of_implant = 0;
+    FacesAtStart                          at_start;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
     /** Of the implant: Q, and the centre of its chuck [mm]. */

@@ -85,7 +85,10 @@ namespace Debond
    *  what it contributes in the trial state. */
   struct SlavePoint : SurfaceQuadraturePoint, SlavePointHistory
   {
-    double             phi_0 = 0;
+    double phi_0 = 0;
+    /** What facets leave between faces that have grown together, or let them
+     *  overlap by: g_n counts from there [mm]. */
+    double             gap_at_start = 0;
     ContactPointResult trial;
     /** False for points of a bone that does not face the implant at the
      *  start: their area does not count. */

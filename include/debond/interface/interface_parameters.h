@@ -1,6 +1,7 @@
 #ifndef debond_interface_interface_parameters_h
 #define debond_interface_interface_parameters_h
 
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bonding_parameters.h>
 #include <debond/interface/interface_law.h>
 #include <debond/shapes/side.h>
@@ -46,7 +47,7 @@ namespace Debond
     static constexpr unsigned int most_points = 64;
     /** What `Quadrature points' comes to, per direction and slave surface
      *  element. */
-    unsigned int
+    PointsPerElement
     points_per_element(const BodyParameters &bone,
                        const BodyParameters &implant) const;
     /** With fewer there are cells of the other body without a point. */

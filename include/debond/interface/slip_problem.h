@@ -137,7 +137,7 @@ namespace Debond
     // minus those that act on the slave. The viscous part is kept apart for the
     // works.
     Eigen::Vector2d    h;
-    double             g_n;
+    double             height, g_n; ///< n . g, less the gap at the start [mm]
     InterfaceResponse  response;
     const MasterNormal normal;
     Eigen::Vector3d    slip;     ///< y - y_n [mm]

@@ -93,14 +93,13 @@ class Experiment:
                              _debond.Team(0)).warnings
 
     def halved(self, steps):
-        """Entries, as pairs, and ends of steps, that halve all steps of a run: those planned, or these, which adaptive ones have
-        chosen."""
-        if steps:
-            starts = [self.scene.sample_times[0], *(ends[-1] for ends in steps[:-1])]
-            return (), [numpy.unique(numpy.r_[ends, numpy.array([start, *ends[:-1]]) / 2 + numpy.array(ends) / 2]).tolist()
-                        for start, ends in zip(starts, steps)]
-        numbers = self.values["Load steps / Steps"].split(",")
-        return (("Load steps / Steps", ", ".join(str(2 * int(float(n))) for n in numbers)),), ()
+        """Ends of steps half as wide as these, which adaptive ones have chosen, or as those planned."""
+        start = self.scene.sample_times[0]
+        if not steps:
+            phases = [float(time) for time in self.values["Load steps / Times"].split(",")]
+            steps = [[time for time in self.scene.sample_times if begin < time <= end] for begin, end in zip(phases, phases[1:])]
+        starts = [start, *(ends[-1] for ends in steps[:-1])]
+        return [numpy.unique(numpy.r_[ends, (numpy.array([begin, *ends[:-1]]) + ends) / 2]).tolist() for begin, ends in zip(starts, steps)]
 
     def _largest_shift(self):
         rigs = [self.changes(values)[1] for values in (self.unknowns.lower, self.unknowns.upper)]
@@ -179,9 +178,9 @@ class Experiment:
             rows[column.key] = torque if column.is_torque else numpy.full(len(angles), force)
         return self.seen(rows, rig)
 
-    def task(self, values, steps, more=()):
-        """Of a run, for run_task(). more: changes in addition, as pairs."""
-        changes = (*self.changes(values)[0], *more)
+    def task(self, values, steps):
+        """Of a run, for run_task()."""
+        changes, _ = self.changes(values)
         columns = {self.over.key, "torque_Nmm", *(column.key for column in self.columns)}
         return self.text, self.name, changes, tuple(tuple(ends) for ends in steps), tuple(sorted(columns))
 

@@ -174,10 +174,7 @@ class Problem:
         """The predicted values (N) of runs with steps half as wide; None for closed forms. Raises RunError."""
         if not any(e.is_finite_elements for e in self.done):
             return None
-        tasks = []
-        for experiment in self.done:
-            more, steps = experiment.halved(self.steps[id(experiment)]) if experiment.is_finite_elements else ((), ())
-            tasks.append(experiment.task(values, steps, more))
+        tasks = [e.task(values, e.halved(self.steps[id(e)]) if e.is_finite_elements else ()) for e in self.done]
         return self._seen(values, self.runs.rows(tasks))
 
     def _failed(self, error):

@@ -325,6 +325,8 @@ end
     entries = {**TRUTH, I + "Friction coefficient unbroken": TWO[I + "Friction coefficient unbroken"], "Output/Reference curve": "wide.csv", "Calibration/Starts": 1}
     found = debond.fit(debond.Scene(None, entries, text=scene))
     report("steps as wide as an interval are told", any("steps of the load are too wide" in text for text in found.warnings), found.warnings)
+    again = debond.fit(debond.Scene(None, entries, text=scene))
+    report("the same fit once more gives the same digits", (again.values == found.values).all() and (again.lower == found.lower).all(), again.values - found.values)
 
 
 def check_few_rows():

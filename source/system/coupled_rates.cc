@@ -58,12 +58,15 @@ namespace Debond
       right[number] = path.row_scale(chuck, k) *
                       (change[n_v + k] - chuck.machine_load_per_value(k) *
                                            (given[k] - motion[n_v + k]));
+    // What an iterative solver leaves differs from processor to processor, and
+    // the sizes of steps, which depend on rates, must not.
+    constexpr double tolerance = 1e-8;
     {
       const TimedSection    t(timer, "dense solve");
-      const Eigen::VectorXd response = bone.whole() ?
-                                         -solve_with_whole_bone(right, 1e-4) :
-                                         -solve_condensed(right, 1e-4);
-      motion.head(n_v)               = response.head(n_v);
+      const Eigen::VectorXd response =
+        bone.whole() ? -solve_with_whole_bone(right, tolerance) :
+                       -solve_condensed(right, tolerance);
+      motion.head(n_v) = response.head(n_v);
       for (const auto &[k, number] : configuration.chuck_unknowns)
         motion[n_v + k] += response[number];
     }

@@ -27,6 +27,7 @@
 #include <debond/support/runtime.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iomanip>
@@ -212,10 +213,12 @@ namespace
     if (!stop.message.empty())
       return outcome;
     outcome.name = "right";
+    std::vector<Verdict> verdicts;
     for (const std::string &judgement : method.judgements)
       {
         const Verdict verdict = judge_or_throw(judgement, outcome.results);
         std::cout << verdict.line << '\n';
+        verdicts.push_back(verdict);
         const bool first_bad = outcome.name == "right" && !verdict.is_met;
         if (first_bad)
           outcome.name = "wrong";
@@ -226,9 +229,11 @@ namespace
       {
         const Verdict verdict = judge_or_throw(value, outcome.results);
         std::cout << "comes to: " << verdict.line << '\n';
+        verdicts.push_back(verdict);
         if (!verdict.is_met)
           outcome.name += " in another way";
       }
+    write_verdicts(verdicts, directory);
     return outcome;
   }
 
@@ -270,6 +275,8 @@ int
 main(int argc, char *argv[])
 {
   Debond::set_up_libraries();
+  if (const char *const n_threads = std::getenv("DEBOND_TEST_THREADS"))
+    Debond::set_number_of_threads(std::stoi(n_threads)); // tests/spread.py
   if (argc != 4)
     {
       std::cerr << "usage: judge_method SCENE.prm METHOD DIRECTORY\n";

@@ -17,6 +17,7 @@
 #include <debond/support/laboratory.h>
 #include <debond/support/runtime.h>
 
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <map>
@@ -92,22 +93,26 @@ namespace
 
 
 
-  /** Whether all expectations are met. */
+  /** Whether all expectations are met. What was measured goes to @p directory,
+   *  the results only if @p more_overrides say so. */
   bool
   check(const std::string              &scene_file,
+        const std::string              &directory,
         const std::vector<std::string> &more_overrides)
   {
     const std::string scene_text = contents_of(scene_file);
     const auto        results    = run(scene_file, scene_text, more_overrides);
     const std::vector<std::string> expectations =
       comments(scene_text, "expect");
-    bool all_met = !expectations.empty();
+    bool                 all_met = !expectations.empty();
+    std::vector<Verdict> verdicts;
     for (const std::string &expectation : expectations)
       {
-        const Verdict verdict = judge(expectation, results);
-        std::cout << verdict.line << '\n';
-        all_met = all_met && verdict.is_met;
+        verdicts.push_back(judge(expectation, results));
+        std::cout << verdicts.back().line << '\n';
+        all_met = all_met && verdicts.back().is_met;
       }
+    write_verdicts(verdicts, directory);
     if (expectations.empty())
       std::cout << "FAILED: the scene expects nothing\n";
     return all_met;
@@ -120,6 +125,8 @@ int
 main(int argc, char *argv[])
 {
   Debond::set_up_libraries();
+  if (const char *const n_threads = std::getenv("DEBOND_TEST_THREADS"))
+    Debond::set_number_of_threads(std::stoi(n_threads)); // tests/spread.py
   if (argc != 2 && argc != 3)
     {
       std::cerr << "usage: check_scene SCENE.prm [DIRECTORY]\n";
@@ -129,11 +136,12 @@ main(int argc, char *argv[])
     {
       if (argc == 2)
         {
-          check(argv[1], {});
+          check(argv[1], ".", {});
           return 0;
         }
       const std::string directory = argv[2];
-      return check(argv[1], {"Output/Directory=" + directory}) ? 0 : 1;
+      return check(argv[1], directory, {"Output/Directory=" + directory}) ? 0 :
+                                                                            1;
     }
   catch (const std::exception &error)
     {

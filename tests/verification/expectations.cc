@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -323,50 +324,62 @@ namespace Expectations
 
 
 
-    /** Whether @p value is as the rest of the expectation says; @p summary of
-     *  the same scene or variant. */
-    bool
-    is_met(const double                         value,
-           std::istream                        &words,
-           const std::map<std::string, double> &summary)
+    /** Sets the band of the rest of the expectation; @p summary of the same
+     *  scene or variant. */
+    void
+    set_band(Verdict                             &verdict,
+             std::istream                        &words,
+             const std::map<std::string, double> &summary)
     {
       std::string relation, bound, within, tolerance, percent, rest;
       words >> relation >> bound;
       const double number =
         summary.count(bound) > 0 ? summary.at(bound) : to_number(bound);
-      bool result = false;
+      verdict.low  = -HUGE_VAL;
+      verdict.high = HUGE_VAL;
       if (relation == "below")
-        result = value < number;
+        verdict.high = std::nextafter(number, -HUGE_VAL);
       else if (relation == "above")
-        result = value > number;
+        verdict.low = std::nextafter(number, HUGE_VAL);
       else if (relation == "=" && words >> within >> tolerance &&
                within == "within")
         {
           const bool is_relative = static_cast<bool>(words >> percent);
           if (is_relative && percent != "%")
             throw Problem("cannot read this expectation");
-          const double unit = is_relative ? 0.01 * std::abs(number) : 1.;
-          result = std::abs(value - number) <= to_number(tolerance) * unit;
+          const double room =
+            to_number(tolerance) * (is_relative ? 0.01 * std::abs(number) : 1.);
+          verdict.low  = number - room;
+          verdict.high = number + room;
         }
       else
         throw Problem("cannot read this expectation");
       if (words >> rest)
         throw Problem("cannot read this expectation");
-      return result;
     }
 
 
 
-    /** Levels of Model = auto that were run and are further from the reference
-     *  curve than auto.csv estimates, or have no estimate; "" if all is well.
-     */
-    std::string
-    levels_beyond_estimate(const std::vector<Results> &variants)
+    /** A level of Model = auto that was run. */
+    struct Level
     {
-      std::ostringstream beyond;
-      unsigned int       n = 0;
+      std::string directory;
+      double      error;     ///< its difference from the reference curve
+      double      estimate;  ///< not a number if there is none
+      double      tolerance; ///< of the scene
+    };
+
+
+
+    std::vector<Level>
+    read_levels(const std::vector<Results> &variants)
+    {
+      std::vector<Level> levels;
       for (const Results &variant : variants)
         {
+          const double tolerance =
+            read_summary(variant.directory + "/summary.json")
+              .at("error_tolerance");
           std::istringstream lines(
             contents_of(variant.directory + "/auto.csv"));
           std::string line;
@@ -378,24 +391,50 @@ namespace Expectations
           while (std::getline(lines, line))
             {
               const std::vector<std::string> fields  = csv_fields(line);
-              const std::string              verdict = fields.back();
+              const std::string              verdict = fields.back(),
+                                directory =
+                                  variant.directory + "/rung-" + fields[0];
               if (verdict.rfind("refused", 0) == 0 ||
                   verdict.rfind("failed", 0) == 0)
                 continue;
-              const std::map<std::string, double> summary = read_summary(
-                variant.directory + "/rung-" + fields[0] + "/summary.json");
+              const std::map<std::string, double> summary =
+                read_summary(directory + "/summary.json");
               if (summary.count("difference_max") == 0)
                 throw Problem("a level has no difference_max");
-              const double error = summary.at("difference_max");
-              ++n;
-              if (!(error < to_number(fields.at(estimate))))
-                beyond << " " << variant.directory << " level " << fields[0]
-                       << " is off by " << error << ";";
+              levels.push_back({directory,
+                                summary.at("difference_max"),
+                                to_number(fields.at(estimate)),
+                                tolerance});
             }
         }
-      if (n == 0)
+      if (levels.empty())
         throw Problem("there are no levels");
-      return beyond.str();
+      return levels;
+    }
+
+
+
+    /** Judges every level, each of which has a value in the band. */
+    void
+    judge_levels(Verdict                                    &verdict,
+                 const std::vector<Level>                   &levels,
+                 const std::function<double(const Level &)> &value_of)
+    {
+      std::ostringstream beyond;
+      const auto         room = [&](const double value) {
+        return std::min(value - verdict.low, verdict.high - value);
+      };
+      verdict.value = value_of(levels.front());
+      for (const Level &level : levels)
+        {
+          const double value = value_of(level);
+          if (!(room(value) >= room(verdict.value)))
+            verdict.value = value;
+          if (!(room(value) >= 0.))
+            beyond << " " << level.directory << " is off by " << level.error
+                   << ", estimated " << level.estimate << ";";
+        }
+      verdict.measured = beyond.str();
     }
   } // namespace
 
@@ -404,25 +443,43 @@ namespace Expectations
   Verdict
   judge(const std::string &expectation, const std::vector<Results> &results)
   {
-    std::istringstream words(expectation.substr(0, expectation.find('(')));
+    const std::string  text = expectation.substr(0, expectation.find('('));
+    std::istringstream words(text);
     Verdict            verdict;
+    verdict.expectation = expectation;
     try
       {
-        if (expectation == "difference_max of every level below estimate")
+        if (std::smatch match;
+            text.rfind("difference_max of every level below estimate", 0) == 0)
           {
-            verdict.measured = levels_beyond_estimate(results);
-            verdict.is_met   = verdict.measured.empty();
+            verdict.low  = 0.;
+            verdict.high = std::nextafter(1., 0.);
+            judge_levels(verdict, read_levels(results), [](const Level &level) {
+              return level.error / level.estimate;
+            });
+          }
+        else if (const std::regex pattern(
+                   "estimate of every level (\\S+) % off tolerance *");
+                 std::regex_match(text, match, pattern))
+          {
+            verdict.low  = 0.01 * to_number(match[1]);
+            verdict.high = HUGE_VAL;
+            judge_levels(verdict, read_levels(results), [](const Level &level) {
+              return std::abs(level.estimate / level.tolerance - 1.);
+            });
           }
         else
           {
-            std::size_t        variant = 0;
-            const double       value   = value_of(words, results, variant);
-            std::ostringstream text;
-            text.precision(8);
-            text << value;
-            verdict.measured = text.str();
-            verdict.is_met   = is_met(value, words, results[variant].summary);
+            std::size_t variant = 0;
+            verdict.value       = value_of(words, results, variant);
+            set_band(verdict, words, results[variant].summary);
+            std::ostringstream measured;
+            measured.precision(8);
+            measured << verdict.value;
+            verdict.measured = measured.str();
           }
+        verdict.is_met =
+          verdict.value >= verdict.low && verdict.value <= verdict.high;
       }
     catch (const Problem &problem)
       {
@@ -433,6 +490,22 @@ namespace Expectations
                      "ok: " + expectation :
                      "FAILED: " + expectation + ": " + verdict.measured;
     return verdict;
+  }
+
+
+
+  void
+  write_verdicts(const std::vector<Verdict> &verdicts,
+                 const std::string          &directory)
+  {
+    std::ofstream file(directory + "/expectations.csv");
+    file.precision(17);
+    file << "value,low,high,expectation\n";
+    for (const Verdict &verdict : verdicts)
+      file << verdict.value << ',' << verdict.low << ',' << verdict.high << ','
+           << verdict.expectation << '\n';
+    if (!file)
+      throw Problem("cannot write expectations.csv in " + directory);
   }
 
 

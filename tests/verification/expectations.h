@@ -15,6 +15,7 @@
 //   T_max_Nmm of variant 3 = 50.32 within 0.1 %
 //   torque_Nmm of variant 3 at angle_deg 0.05 above 31
 //   difference_max of every level below estimate
+//   estimate of every level 10 % off tolerance
 //
 // A name alone is a key of summary.json (true counts as 1), in a study a column
 // of study.csv; so may the bound of `below' and `above' be. `at COLUMN VALUE`
@@ -22,7 +23,9 @@
 // largest absolute value in a column, `ripple after COLUMN VALUE` the largest
 // less the smallest value, relative to their mean, in rows where the other
 // column is at least that. Levels are those of Model = auto, in all variants,
-// and the estimate that of auto.csv. A tolerance without % is absolute.
+// and the estimate that of auto.csv: an answer that is expected must not hang
+// on an estimate next to the tolerance of its scene. A tolerance without % is
+// absolute.
 
 #include <map>
 #include <string>
@@ -51,10 +54,14 @@ namespace Expectations
 
   struct Verdict
   {
+    std::string expectation;
     bool        is_met      = false;
     bool        is_readable = true; ///< false: it cannot be evaluated
     std::string line;     ///< "ok: EXPECTATION" or "FAILED: EXPECTATION: ..."
     std::string measured; ///< the value, or what is wrong with it
+    /** The value (of levels that nearest to the limit, in parts of the estimate
+     *  or the tolerance), and the ends of the band that it must be in. */
+    double value = 0., low = 0., high = 0.;
   };
 
   /** All of a file. Throws std::runtime_error if it cannot be read. */
@@ -89,5 +96,11 @@ namespace Expectations
    *  @p expectation says. */
   Verdict
   judge(const std::string &expectation, const std::vector<Results> &results);
+
+  /** Writes values and bands, for tests/spread.py, to expectations.csv in
+   *  @p directory. */
+  void
+  write_verdicts(const std::vector<Verdict> &verdicts,
+                 const std::string          &directory);
 } // namespace Expectations
 #endif

@@ -101,10 +101,7 @@ namespace Debond
         const Chuck::Vector6 motion = dq.cwiseAbs();
         const double         bound =
           0.5 * change.cwiseMax(last_change).dot(motion.cwiseMax(last_motion)) +
-          dq.tail<3>().squaredNorm() / 6. * // of chords, as in EnergyBalance
-            state.forces.cwiseAbs()
-              .cwiseMax(last.forces.cwiseAbs())
-              .dot(motion) +
+          dq.tail<3>().squaredNorm() / 6. * greatest.dot(motion) + // of chords
           state.bound - last.bound + 1e-6 * largest_work + rounding;
         last_change = change;
         last_motion = motion;

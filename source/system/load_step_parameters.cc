@@ -206,21 +206,17 @@ namespace Debond
   std::vector<double>
   LoadSteppingParameters::sample_times() const
   {
-    constexpr double       golden = 0.6180339887498949;
-    LoadSteppingParameters coarse = *this;
+    constexpr double    golden = 0.6180339887498949;
     const unsigned int  wanted = std::max<std::size_t>(1, 1000 / steps.size());
-    std::vector<double> result{times[0]};
+    std::vector<double> result{times.back()};
     for (unsigned int phase = 0; phase < steps.size(); ++phase)
       {
-        unsigned int &n = coarse.steps[phase];
-        n               = std::min(n, wanted);
-        for (unsigned int i = 1; i <= n; ++i)
-          {
-            const double end  = coarse.planned_time(phase, i),
-                         size = end - coarse.planned_time(phase, i - 1);
-            for (unsigned int k = 0; k <= 1 + wanted / n; ++k) // 0: the end
-              result.push_back(end - std::fmod(k * golden, 1.) * size);
-          }
+        const unsigned int n     = std::min(steps[phase], wanted);
+        const double       begin = times[phase],
+                     size        = (times[phase + 1] - begin) / n;
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int k = 0; k <= 1 + wanted / n; ++k)
+            result.push_back(begin + (i + std::fmod(k * golden, 1.)) * size);
       }
     std::sort(result.begin(), result.end());
     return result;

@@ -377,8 +377,9 @@ namespace Debond
     const bool rubs = limit > 0. || response.pressure >= 0.;
     if (closed && (mode.stick_first || (rubs && trial_traction <= limit)))
       step.stick(friction, response, gap, normal);
-    else if (mode.stick_first)
-      step.open(g_n);
+    else if (mode.stick_first ||
+             (!closed && limit > 0. && trial_traction <= limit))
+      step.open(g_n); // a bond that is still to form would hold it in place
     else
       {
         step.bring_along(normal, friction);

@@ -191,7 +191,7 @@ def differences(expected, got, change, R, ignored):
     for name, values in rows.items():
         largest[kind_of(name)] = max(largest[kind_of(name)], abs(values).max())
     R *= change.L
-    largest["N"] = max(largest["N"], largest["MPa"] * R ** 2)  # pressures around a pin balance
+    largest["N"] = max(largest["N"], 4 * R ** 2 * largest["MPa"])  # pressures around a pin balance
     largest.update({"": 100.0, "Nmm": max(largest["Nmm"], R * largest["N"]), "N_per_m": 1e3 * largest["energy"] / R ** 2,
                     "Nmm_per_rad": max(largest["Nmm"], R * largest["N"])})
     result = {}

@@ -270,8 +270,8 @@ class Drawn:
         if pattern == "expression":
             self.set("Interface/Bonding", Expression="0.5 + 0.4 * sin(1 + 2 * y / R)" if self.on_side else "0.5 + 0.3 * sin(x / R + 2 * y / R) * r / R",
                      Resolution=self.chance.choice(("element", "quadrature point")))
-        if pattern == "image":
-            grey = numpy.array([[self.chance.randrange(256) for _ in range(6)] for _ in range(6)])
+        if pattern == "image":  # borders of pixels are not where points are
+            grey = numpy.array([[self.chance.randrange(256) for _ in range(7)] for _ in range(7)])
             self.set("Interface/Bonding", File=self.file("picture", Picture(grey)))
         if pattern == "points":
             places = [[self.chance.uniform(-3, 3) for _ in range(40)] for _ in "xy"]
@@ -279,7 +279,9 @@ class Drawn:
 
     def add_times(self):
         self.times = [0, 1, self.chance.choice((2, 1.5, 3.25))]
-        self.set("Load steps", Times=", ".join(map(str, self.times)), Steps=f"{self.chance.choice((1, 2))}, {self.chance.choice((4, 6))}")
+        # a bond that breaks in one large step, or a path that turns back in it, has more than one end
+        times = 2 if self.what[1] in ("adhesive", "mixed mode") or self.what[2] == "cyclic" else 1
+        self.set("Load steps", Times=", ".join(map(str, self.times)), Steps=f"{self.chance.choice((1, 2))}, {times * self.chance.choice((4, 6))}")
         if not self.in_bore and self.entries["Interface/Law"] == "friction" and self.maybe(0.2):
             self.set("Interface", Friction_starts_at=1)
 
@@ -293,13 +295,15 @@ class Drawn:
         sign = lambda: self.chance.choice((-1, 1))
         depth = r(0.001, 0.003) if self.in_bore else self.p / self.eps * (1.3 if touches_later else 1)
         force, torque = self.p * self.area, 0.35 * self.mu * self.p * self.area * self.R
-        press = f"{depth:.6g} * min(t, 1)"
+        loaded = drive == "by a moment" or drive == "tilted" and not self.in_bore
+        press = f"{depth:.6g} * (0.2 + 0.8 * min(t, 1))" if loaded and not touches_later else f"{depth:.6g} * min(t, 1)"
         turn, shift = sign() * r(0.5, 3), sign() * r(0.005, 0.06)
         if self.in_bore:
-            turn, shift, force = turn / 2, shift / 4, force / 4
+            turn, shift, force = turn / 2, shift / (8 if self.what[1] == "dilatant" else 4), force / 4
         tilt = [sign() * r(0.2, 0.9) * depth / self.R * 57 for _ in "xy"]
         chuck = lambda name, value, **more: self.set(f"Chuck/{name}", Value=value, **more)
-        if drive == "by a force" or drive == "by a moment" and self.maybe(0.5):
+        is_held = not (self.in_bore and self.entries["Interface/Friction law"] == "frictionless")
+        if is_held and (drive == "by a force" or drive == "by a moment" and self.maybe(0.5)):
             if touches_later:
                 chuck("Press", f"{2 * depth:.6g} * min(t, 1)", Stiffness=f"{force / depth:.5g}")
             else:
@@ -319,7 +323,7 @@ class Drawn:
         elif drive == "by a spring":
             chuck("Rotation z", after(turn), Stiffness=r(2e3, 2e4))
         elif drive == "cyclic":
-            chuck("Rotation z", f"{turn} * sin(4.3 * max(t - 1, 0) / {last})")
+            chuck("Rotation z", f"{turn / 3:.5g} * sin(4.3 * max(t - 1, 0) / {last})")
         elif drive == "tables":
             chuck("Rotation z", "table", File=self.file("turn", Table(time=[-1, 1, 2, 5], value=[0, 0, turn, 2.5 * turn])), File_columns="time [s], value [deg]")
         if drive == "sheared":

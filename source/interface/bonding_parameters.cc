@@ -61,8 +61,8 @@ namespace Debond
       correlation_length,
       Allowed::number_between(1e-6, 1e6, "mm").or_number(0),
       "Size l [mm] of bonded patches, for Pattern = random: the highest "
-      "values of a random field with the correlation exp(-(d/l)^2). 0: "
-      "independent elements.");
+      "values of a random field with the correlation exp(-(d/l)^2) at the "
+      "distance d in space. 0: independent elements.");
     declare_places(table);
     table.add(
       "Resolution",
@@ -84,9 +84,11 @@ namespace Debond
       expression,
       Allowed::text("an expression in x, y, r, angle, pi, R", false),
       "Pattern expression: phi_0 in [0, 1] as an expression in the position: "
-      "x, y and the distance r from the axis in mm, angle from the x axis "
-      "towards the y axis in degrees, above -180 and up to 180, pi, and the "
-      "radius R of the implant in mm. sin and cos expect radians.");
+      "x and y in mm (on a side: x around it from angle = 0, and y = z; on a "
+      "cup: along the sphere from its lowest point), the distance r from the "
+      "implant's axis in mm, angle about the axis from the x axis towards the "
+      "y axis in degrees, above -180 and up to 180, pi, and the radius R of "
+      "the implant in mm. sin and cos expect radians.");
     table.add(
       "File",
       file,
@@ -94,12 +96,13 @@ namespace Debond
       "Pattern image: PNG or PGM, grey levels from 0 (black) to 1 (white) are "
       "phi_0; the picture spans the square around the contact face (of a "
       "block: the rectangle), its right is +x and its top +y. Pattern file: "
-      "CSV whose first line names its columns: element,phi_0 (elements are "
-      "numbered from 1, see bonding.csv in the results), phi_0 alone (all "
-      "elements in order), or x,y,phi_0 (points, in mm: an element takes the "
-      "mean of the points inside it, or that of the point nearest to its "
-      "centre; a quadrature point that of the nearest point). The path is "
-      "relative to the working directory.");
+      "CSV whose first line names its columns: element,phi_0, or point,phi_0 "
+      "with Resolution = quadrature point (numbered from 1, see bonding.csv "
+      "in the results), phi_0 alone (all of these in order), or x,y,phi_0 "
+      "(places in mm, seen from above, not in a bore: an element takes the "
+      "mean of those inside it, or that of the one nearest to its centre; a "
+      "quadrature point that of the nearest). The path is relative to the "
+      "working directory.");
     table.add("White level",
               white_level,
               Allowed::whole_number(1, 65535).or_word_for("auto", "0"),
@@ -155,10 +158,6 @@ namespace Debond
       throw EntryError(bonding_section + "Pattern",
                        "it needs the name of a file: " + bonding_section +
                          "File");
-    if (pattern == Kind::file && implant.geometry().is_in_bore(implant))
-      throw EntryError(bonding_section + "Pattern",
-                       "places in a file are seen from above: in a bore "
-                       "expected image or expression");
     if (is_disk && !implant.geometry().is_round() &&
         implant.shape != BodyShape::file)
       throw EntryError(bonding_section + "Pattern",

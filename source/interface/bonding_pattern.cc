@@ -26,11 +26,13 @@ namespace Debond
       {
         Part &part = all_parts[part_of(q)];
         part.area += points[q].JxW;
-        part.centre +=
-          points[q].JxW * implant.geometry().on_face(implant, points[q].X);
+        part.place += points[q].JxW * points[q].X;
       }
     for (Part &part : all_parts)
-      part.centre /= part.area;
+      {
+        part.place /= part.area;
+        part.centre = implant.geometry().on_face(implant, part.place);
+      }
 
     fill(parameters, implant);
     for (Part &part : all_parts)
@@ -111,9 +113,8 @@ namespace Debond
     else if (pattern == Kind::random && parameters.correlation_length > 0.)
       {
         const RandomField field(parameters.seed, parameters.correlation_length);
-        std::transform(centres.begin(), centres.end(), rank.begin(), field);
-        for (double &each : rank)
-          each = -each;
+        for (unsigned int i = 0; i < rank.size(); ++i)
+          rank[i] = -field(all_parts[i].place);
       }
     else if (pattern == Kind::random)
       {
@@ -160,7 +161,7 @@ namespace Debond
         double area = 0.;
         for (unsigned int k = 0; k < patch.size(); ++k)
           {
-            area += all_parts[patch[k]].area;
+            area += all_parts[patch[k]].phi_0 * all_parts[patch[k]].area;
             for (const unsigned int beside : parts_beside(patch[k]))
               visit(beside);
           }
@@ -266,12 +267,13 @@ namespace Debond
 
   void
   check_bonding_pattern(const BondingParameters &parameters,
-                        const BodyParameters    &implant)
+                        const BodyParameters    &implant,
+                        const PointsPerElement  &n)
   {
     using Kind         = BondingPatternKind;
     const Kind pattern = parameters.pattern;
     if (pattern == Kind::expression || pattern == Kind::image ||
         pattern == Kind::file)
-      BondingPattern(parameters, implant, make_contact_surface(implant), 3);
+      BondingPattern(parameters, implant, make_contact_surface(implant), n);
   }
 } // namespace Debond

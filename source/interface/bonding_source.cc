@@ -26,26 +26,31 @@ namespace Debond
 {
   namespace
   {
-    /** phi_0 as a function of the place (x, y) on the contact face [mm]. */
-    using PlaceFunction = std::function<double(const Eigen::Vector2d &)>;
+    /** phi_0 as a function of the reference position X [mm]. */
+    using PlaceFunction = std::function<double(const Eigen::Vector3d &)>;
 
 
 
     PlaceFunction
-    function_of_expression(const std::string &expression, const double radius)
+    function_of_expression(const std::string    &expression,
+                           const BodyParameters &implant)
     {
       Expression phi_0;
       try
         {
-          phi_0 = read_expression("x,y,r,angle", expression, radius);
+          phi_0 = read_expression("x,y,r,angle",
+                                  expression,
+                                  implant.characteristic_radius());
         }
       catch (const InputError &error)
         {
           throw EntryError(bonding_section + "Expression", error.what());
         }
-      return [phi_0, expression](const Eigen::Vector2d &place) {
-        const double angle = std::atan2(place[1], place[0]) * 180. / M_PI;
-        const double value = phi_0({place[0], place[1], place.norm(), angle});
+      return [phi_0, expression, &implant](const Eigen::Vector3d &X) {
+        const Eigen::Vector2d place = implant.geometry().on_face(implant, X);
+        const double          angle = std::atan2(X[1], X[0]) * 180. / M_PI;
+        const double          value =
+          phi_0({place[0], place[1], X.head<2>().norm(), angle});
         // rounding may exceed the bounds by its own size
         if (!(value >= -1e-12 && value <= 1. + 1e-12))
           throw EntryError(bonding_section + "Expression",
@@ -66,7 +71,6 @@ namespace Debond
      *  some @p n_across quadrature points across the face; else its values. */
     std::vector<double>
     values_of(const PlaceFunction    &function,
-              const BodyParameters   &implant,
               const bool              by_element,
               const NurbsSurface     &surface,
               const PointsPerElement &n,
@@ -83,8 +87,7 @@ namespace Debond
           for (const auto &point :
                element_quadrature(surface, element, quadrature))
             {
-              const double value =
-                function(implant.geometry().on_face(implant, point.X));
+              const double value = function(point.X);
               if (!by_element)
                 values.push_back(value);
               sum += point.JxW * value;
@@ -123,11 +126,11 @@ namespace Debond
       if (by_element)
         image = image.reduced_to(256);
       return values_of(
-        [&](const Eigen::Vector2d &place) {
-          const Eigen::Array2d uv = (place - box[0]).array() / size;
+        [&](const Eigen::Vector3d &X) {
+          const Eigen::Array2d uv =
+            (implant.geometry().on_face(implant, X) - box[0]).array() / size;
           return image.at(uv[0], uv[1]);
         },
-        implant,
         by_element,
         surface,
         n,
@@ -174,42 +177,43 @@ namespace Debond
 
 
 
-    /** Rows of an element, if numbered, phi_0, and maybe x and y: one for each
-     *  element, in order or with the number of the element in front. Where they
-     *  say where the elements are, those of another mesh are refused. */
+    /** Rows of a number, if numbered, phi_0, and maybe x and y: one for each
+     *  @p part, an element or a point, in order or with its number in front.
+     *  Where they say where these are, those of another mesh are refused. */
     std::vector<double>
-    values_by_element(const PatternFile                  &file,
-                      const bool                          numbered,
-                      const std::vector<Eigen::Vector2d> &centres,
-                      const double                        size)
+    values_by_number(const PatternFile                  &file,
+                     const std::string                  &part,
+                     const bool                          numbered,
+                     const std::vector<Eigen::Vector2d> &centres,
+                     const double                        size)
     {
-      const unsigned int n_elements = centres.size();
-      if (file.rows.size() != n_elements)
+      const unsigned int n_parts = centres.size();
+      if (file.rows.size() != n_parts)
         file.refuse("it has " + std::to_string(file.rows.size()) +
                     " rows, but the contact face has " +
-                    std::to_string(n_elements) +
-                    " elements: expected a row for each");
-      std::vector<double> values(n_elements, -1.);
-      for (unsigned int i = 0; i < n_elements; ++i)
+                    std::to_string(n_parts) + " " + part +
+                    "s: expected a row for each");
+      std::vector<double> values(n_parts, -1.);
+      for (unsigned int i = 0; i < n_parts; ++i)
         {
           const auto  &row    = file.rows[i];
           const double number = numbered ? row[0] : i + 1.;
-          file.expect(number >= 1. && number <= n_elements &&
+          file.expect(number >= 1. && number <= n_parts &&
                         number == std::floor(number),
                       i,
-                      "there is no element " + to_text(number) +
+                      "there is no " + part + " " + to_text(number) +
                         ": they are numbered from 1 to " +
-                        std::to_string(n_elements));
-          const auto element = static_cast<unsigned int>(number) - 1;
-          file.expect(values[element] < 0.,
+                        std::to_string(n_parts));
+          const auto index = static_cast<unsigned int>(number) - 1;
+          file.expect(values[index] < 0.,
                       i,
-                      "element " + to_text(number) + " is there twice");
-          values[element] = row[numbered];
+                      part + " " + to_text(number) + " is there twice");
+          values[index] = row[numbered];
           if (row.size() < 4)
             continue;
-          const Eigen::Vector2d &centre = centres[element];
+          const Eigen::Vector2d &centre = centres[index];
           if (std::hypot(row[2] - centre[0], row[3] - centre[1]) > 1e-3 * size)
-            file.refuse("it belongs to another mesh: element " +
+            file.refuse("it belongs to another mesh: " + part + " " +
                         to_text(number) + " is at x = " + to_text(row[2], 6) +
                         " mm, y = " + to_text(row[3], 6) + " mm there and at " +
                         to_text(centre[0], 6) + ", " + to_text(centre[1], 6) +
@@ -270,6 +274,7 @@ namespace Debond
 
     std::vector<double>
     values_of_file(const std::string                  &filename,
+                   const BodyParameters               &implant,
                    const bool                          by_element,
                    const NurbsSurface                 &surface,
                    const std::vector<Eigen::Vector2d> &centres)
@@ -282,22 +287,25 @@ namespace Debond
       const auto has     = [&columns](const std::string &name) {
         return std::count(columns.begin(), columns.end(), name) > 0;
       };
-      const bool numbered = has("element");
-      const bool has_mm   = has("x_mm") && has("y_mm");
+      const std::string part     = by_element ? "element" : "point";
+      const bool        numbered = has(part);
+      const bool        has_mm   = has("x_mm") && has("y_mm");
       if (has("phi_0") && (numbered || columns.size() == 1))
         {
-          if (!by_element)
-            file.refuse("a value for every element needs Resolution = "
-                        "element; with Resolution = quadrature point columns "
-                        "x,y,phi_0 are expected");
           std::vector<std::string> names{"phi_0"};
           if (numbered)
-            names.insert(names.begin(), "element");
+            names.insert(names.begin(), part);
           if (numbered && has_mm)
             names.insert(names.end(), {"x_mm", "y_mm"});
           file.read(names);
-          return values_by_element(file, numbered, centres, size);
+          return values_by_number(file, part, numbered, centres, size);
         }
+      const bool in_bore = implant.geometry().is_in_bore(implant);
+      if (has("phi_0") && (has("element") || in_bore))
+        file.refuse("Resolution asks for a value for each " + part +
+                    ": expected columns " + part + ",phi_0" +
+                    (in_bore ? " (a side is not seen from above, as x,y are)" :
+                               " or x,y,phi_0"));
       if (columns.empty())
         file.refuse("this file is empty");
       if (!has("phi_0") || !(has_mm || (has("x") && has("y"))))
@@ -329,13 +337,12 @@ namespace Debond
                        "was read: start again",
                        parameters.file);
     if (parameters.pattern == BondingPatternKind::file)
-      return values_of_file(parameters.file, by_element, surface, centres);
+      return values_of_file(
+        parameters.file, implant, by_element, surface, centres);
     if (parameters.pattern == BondingPatternKind::image)
       return values_of_image(
         parameters, implant, by_element, surface, n, remark);
-    return values_of(function_of_expression(parameters.expression,
-                                            implant.characteristic_radius()),
-                     implant,
+    return values_of(function_of_expression(parameters.expression, implant),
                      by_element,
                      surface,
                      n,
@@ -400,7 +407,8 @@ namespace Debond
                            const double        correlation_length)
     : waves(1000)
   {
-    PortableRandom random(seed);
+    // faces at z = 0 do not know of the second
+    PortableRandom random(seed), upwards(~seed);
     for (Wave &wave : waves)
       {
         // normally distributed components of variance 2/l^2: the mean of
@@ -408,16 +416,19 @@ namespace Debond
         const double length =
           2. / correlation_length * std::sqrt(-std::log(random.uniform()));
         const double direction = 2. * M_PI * random.uniform();
-        wave.k =
-          length * Eigen::Vector2d(std::cos(direction), std::sin(direction));
-        wave.phase = 2. * M_PI * random.uniform();
+        wave.k                 = {length * std::cos(direction),
+                                  length * std::sin(direction),
+                                  2. / correlation_length *
+                                    std::sqrt(-std::log(upwards.uniform())) *
+                                    std::cos(2. * M_PI * upwards.uniform())};
+        wave.phase             = 2. * M_PI * random.uniform();
       }
   }
 
 
 
   double
-  RandomField::operator()(const Eigen::Vector2d &place) const
+  RandomField::operator()(const Eigen::Vector3d &place) const
   {
     double sum = 0.;
     for (const Wave &wave : waves)

@@ -60,12 +60,10 @@ namespace Debond
 
 
 
-  // phi_0 of Eq. (13) belongs to the implant: with the bone as slave a point
-  // takes that of the implant point it faces at the start.
-  //
-  // A point of the bone that faces no implant at the start has grown together
-  // with nothing: its phi_0 stays 0. It can still carry pressure and friction
-  // once the implant slides over it, with the coefficient of what is debonded.
+  // phi_0 of Eq. (13) belongs to the implant. A point of the bone that faces no
+  // implant at the start has grown together with nothing: its phi_0 stays 0. It
+  // can still carry pressure and friction once the implant slides over it, with
+  // the coefficient of what is debonded.
   void
   ContactInterface::assign_bonding()
   {
@@ -80,13 +78,24 @@ namespace Debond
     for (SlavePoint &point : points)
       point.faces_implant =
         slave == Side::implant || point.accepted.has_partner;
-    // The points of the implant are those of the pattern. Those of the bone
-    // look it up at their interacting point, which initialise() has just found.
-    for (unsigned int q = 0; q < points.size(); ++q)
+    // the points of the implant are those of the pattern
+    for (unsigned int q = 0; slave == Side::implant && q < points.size(); ++q)
+      points[q].phi_0 = pattern->at(q);
+    follow_pattern();
+  }
+
+
+
+  // The implant takes its pattern along. With the bone as slave its points look
+  // phi_0 up where they interact now, and what is held at a place where it is
+  // held.
+  void
+  ContactInterface::follow_pattern()
+  {
+    for (unsigned int q = 0; slave == Side::bone && q < points.size(); ++q)
       if (points[q].faces_implant)
-        points[q].phi_0 = slave == Side::implant ?
-                            pattern->at(q) :
-                            pattern->at(points[q].accepted.xi);
+        points[q].phi_0 =
+          pattern->at(shares.empty() ? points[q].accepted.xi : shares[q].xi);
   }
 
 
@@ -726,6 +735,7 @@ namespace Debond
           project_accepted(point, configuration, true);
       }
     accept_shares(configuration);
+    follow_pattern();
   }
 
 

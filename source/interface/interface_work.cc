@@ -124,10 +124,17 @@ namespace Debond
       (point.accepted_viscous_pressure + trial.viscous_pressure) * opened;
     for (double *work : {&viscous, &friction, &friction_bound})
       *work += viscous_slip + viscous_opening;
-    const PointWork by_law = law.work(point.begin(law, mode),
-                                      trial.normal_gap,
-                                      trial.state.slip - point.accepted.slip);
-    const double    of_gap =
+    const PointStart start = point.begin(law, mode);
+    const PointWork  by_law =
+      law.work(start, trial.normal_gap, trial.state.slip - point.accepted.slip);
+    // where a pattern has moved on, the string bears more than what holds now
+    const double held = law.respond(start, point.accepted.normal_gap, 0.).limit,
+                 lost = (old_traction - frame * point.accepted_viscous_traction)
+                          .norm() -
+                        held;
+    if (law.friction->has_bond() && lost > 0.)
+      friction += 0.5 * lost * slip.norm();
+    const double of_gap =
       viscous_opening + point.JxW * (by_law.damage - by_law.lift);
     adhesive += point.JxW * by_law.adhesive;
     damage += point.JxW * by_law.damage;

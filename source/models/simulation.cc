@@ -44,8 +44,19 @@ namespace Debond
       std::vector<Warning> warnings = scene.warnings();
       // The pattern of the initial bonding phi_0 belongs to the implant. If the
       // quadrature points are the bone's, they see it where they happen to lie.
-      const auto  &report = interface.bonding().report();
-      const double seen   = interface.mean_seen_bonding();
+      const auto  &report  = interface.bonding().report();
+      const double seen    = interface.mean_seen_bonding();
+      const auto   bonding = scene.interface.bonding_of_law();
+      const auto   box = scene.implant.geometry().box_of_face(scene.implant);
+      if (report.mean == 0. &&
+          bonding.initial_bonding * bonding.bonded_fraction > 0.)
+        warnings.push_back({"nothing bonded",
+                            Text()
+                              << bonding_section
+                              << "Pattern bonds nothing, a fraction 0 of "
+                              << report.area << " mm^2: on this face x is "
+                              << box[0][0] << " to " << box[1][0] << " and y "
+                              << box[0][1] << " to " << box[1][1] << " mm"});
       // What it was read from, a picture for instance, may need a remark, too.
       if (!report.remark.empty())
         warnings.push_back({"picture", report.remark});
@@ -232,8 +243,11 @@ namespace Debond
     const BodyParameters   &shape     = scene.implant;
     const ContactInterface &interface = coupled_system.interface;
     CurveSettings           settings;
-    settings.mean_phi_0       = interface.bonding().report().mean;
-    settings.is_bonded        = settings.mean_phi_0 > 0.;
+    settings.mean_phi_0 = interface.bonding().report().mean;
+    settings.is_bonded  = settings.mean_phi_0 > 0.;
+    settings.phi_only_falls =
+      interface.slave_side() == Side::implant ||
+      scene.interface.bonding.pattern == BondingPatternKind::homogeneous;
     const double area         = shape.geometry().area(shape);
     settings.contact_area_mm2 = area > 0. ? area : interface.implant_area();
     settings.phase_times      = scene.load_steps.times;

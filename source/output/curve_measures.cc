@@ -453,7 +453,8 @@ namespace Debond
         std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
           return row.phi_mean < steps.front().phi_mean * (1. - 1e-12);
         });
-      if (settings.is_bonded && breaks != steps.end())
+      if (settings.is_bonded && settings.phi_only_falls &&
+          breaks != steps.end())
         {
           measures["theta_bonded_deg"]    = std::prev(breaks)->angle_deg;
           measures["theta_debonding_deg"] = breaks->angle_deg;

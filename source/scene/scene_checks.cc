@@ -320,7 +320,9 @@ namespace Debond
                        "Implant / Shape is " +
                          implant.geometry().name() + ": expected numbers");
     interface.check(implant);
-    check_bonding_pattern(interface.bonding, implant);
+    check_bonding_pattern(interface.bonding,
+                          implant,
+                          interface.points_per_element(bone, implant));
     if (model == ModelKind::automatic)
       check_pattern_of_auto(interface.bonding);
     load_steps.check();

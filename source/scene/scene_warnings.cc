@@ -179,6 +179,14 @@ namespace Debond
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) +
              " mm, more than half the radius: lengths are mm, 22 um is 0.022");
+      note(law.has_bond() && scene.interface.slave == Side::bone &&
+             distance > 0.05 * R,
+           "bond on the bone",
+           "Slave = bone, and the bond breaks over some " +
+             to_text(distance, 3) +
+             " mm: how far a place has slid stays with the bone, which has no "
+             "bond where it is beside the implant. Slave = implant takes both "
+             "along");
       // that of the paper is a hundredth of the radius
       note(law.has_bond() && has_size && distance < 5e-5 * R,
            "short bond",

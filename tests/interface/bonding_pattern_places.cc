@@ -1,6 +1,7 @@
 // Bonding patterns that are given place by place: expressions with their area
-// means over elements, the orientation of images, values from CSV files, and
-// what is said of those that are wrong.
+// means over elements, the orientation of images, values from CSV files, what
+// is said of those that are wrong, and all of it on the faces of implants in a
+// bore.
 
 #include <debond/bulk/bulk_space.h>
 #include <debond/interface/bonding_pattern.h>
@@ -10,6 +11,7 @@
 
 #include <fstream>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -429,6 +431,185 @@ check_files()
 
 
 
+// A scene with an implant that has a mesh, and three points per element.
+Scene
+scene_of(const std::string &shape, const std::vector<std::string> &more = {})
+{
+  const bool is_cup = shape == "cup", is_on_bone = shape == "ring";
+  std::vector<std::string> entries{"Implant/Shape=" + shape,
+                                   "Implant/Element=quadratic",
+                                   std::string("Implant/Cells=16, 2, ") +
+                                     (is_cup ? "4" : "8"),
+                                   std::string("Implant/Height=") +
+                                     (is_cup ? "2" : "3"),
+                                   "Interface/Quadrature points=3"};
+  const auto add = [&entries](const std::vector<std::string> &others) {
+    entries.insert(entries.end(), others.begin(), others.end());
+  };
+  if (is_on_bone)
+    add({"Implant/Inner radius=1"});
+  else
+    add({is_cup ? "Bone/Shape=cavity" : "Bone/Shape=sleeve",
+         "Bone/Outer radius=6",
+         "Bone/Element=quadratic",
+         "Bone/Cells=16, 2, 8"});
+  if (shape == "screw")
+    add({"Implant/Pitch=3"});
+  if (shape == "taper")
+    add({"Implant/Taper angle=15"});
+  add(more);
+  return Scene::from_text("subsection Implant\n"
+                          "  set Radius = 2\n"
+                          "end\n"
+                          "subsection Chuck\n"
+                          "  subsection Rotation z\n"
+                          "    set Value = t\n"
+                          "  end\n"
+                          "end\n",
+                          entries);
+}
+
+
+
+// On a side x and y are unrolled; r is the distance from the axis, and angle
+// goes about it, as on a coin. Area means in closed form.
+void
+check_bores()
+{
+  for (const std::string shape : {"ring", "pin", "taper", "screw", "cup"})
+    {
+      std::cout << "On a " << shape << std::endl;
+      const BodyParameters implant = scene_of(shape).implant;
+      const auto           mean    = [&](const std::string &text) {
+        return make_pattern(expression(text), implant).report().mean;
+      };
+      report("  a quarter by angle, deviation of the mean",
+             std::abs(mean("angle > 0 && angle < 90") - 0.25),
+             1e-10);
+      report("  angle in degrees, deviation of the mean",
+             std::abs(mean("angle / 360 + 0.5") - 0.5),
+             shape == "screw" ? 1e-3 : 1e-10);
+      // mean of r / R with R = 2: of a ring (2/3)(8 - 1)/(4 - 1)/2, of a cone
+      // (2/3)(4 + 2 r + r^2)/(2 + r)/2, of half a sphere pi/4
+      const double low = 2. - 3. * std::tan(15. * M_PI / 180.);
+      if (shape != "screw")
+        report("  r/R, deviation of the mean",
+               std::abs(mean("r / R") -
+                        (shape == "ring"  ? 7. / 9. :
+                         shape == "pin"   ? 1. :
+                         shape == "taper" ? (4. + 2. * low + low * low) /
+                                              (2. + low) / 3. :
+                                            M_PI / 4.)),
+               1e-5);
+
+      const NurbsSurface surface = make_contact_surface(implant);
+      const auto         points  = surface_quadrature(surface, 3);
+      const auto         by_point =
+        make_pattern(expression("r / (4 * R) + (angle + 180) / 1000",
+                                BondingResolution::quadrature_point),
+                     implant);
+      double largest = 0.;
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const auto &X = points[q].X;
+          grow(largest,
+               std::abs(by_point.at(q) -
+                        std::hypot(X[0], X[1]) /
+                          (4. * implant.characteristic_radius()) -
+                        (std::atan2(X[1], X[0]) / M_PI + 1.) * 0.18));
+        }
+      report("  values at quadrature points, deviation", largest, 1e-13);
+
+      for (const BondingResolution resolution :
+           {BondingResolution::element, BondingResolution::quadrature_point})
+        {
+          const auto pattern =
+            make_pattern(expression("(angle + 180) / 400", resolution),
+                         implant);
+          std::ofstream("again.csv") << pattern.table();
+          const auto again = make_pattern(
+            scene_of(shape,
+                     {"Interface/Bonding/Pattern=file",
+                      "Interface/Bonding/File=again.csv",
+                      resolution == BondingResolution::element ?
+                        "Interface/Bonding/Resolution=element" :
+                        "Interface/Bonding/Resolution=quadrature point"})
+              .interface.bonding,
+            implant);
+          report("  the table of a pattern gives it again, deviation",
+                 difference(again, pattern),
+                 1e-15);
+        }
+      const auto half =
+        make_pattern(expression("0.7 * (angle > -45)"), implant);
+      report("  a patch is no larger than what is bonded",
+             half.report().largest_patch <=
+               half.report().bonded_area * (1. + 1e-12));
+      report(
+        "  across the half-plane of 180 degrees it is one patch",
+        make_pattern(expression("abs(angle) > 90"), implant).report().patches ==
+          1);
+    }
+}
+
+
+
+// Patches of a random pattern end across the half-plane of 180 degrees as often
+// as elsewhere, and are as wide near the rim of a cup as at its lowest point:
+// what is bonded has the highest values of a field in space.
+void
+check_random_in_bores()
+{
+  std::cout << "Random patches in bores" << std::endl;
+  BondingParameters parameters;
+  parameters.pattern            = BondingPatternKind::random;
+  parameters.bonded_fraction    = 0.5;
+  parameters.correlation_length = 1.5;
+  double seam = 0., elsewhere = 0., lower = -1e9;
+  for (const std::string shape : {"pin", "taper", "screw", "cup"})
+    {
+      const BodyParameters implant = scene_of(shape).implant;
+      for (parameters.seed = 1; parameters.seed <= 20; ++parameters.seed)
+        {
+          const auto        pattern = make_pattern(parameters, implant);
+          const RandomField field(parameters.seed, 1.5);
+          double            lowest = 1e9, highest = -1e9;
+          // by row and column of the side, 22.5 degrees apart
+          std::map<std::pair<int, int>, double> phi_0;
+          for (const auto &part : pattern.parts())
+            {
+              if (part.phi_0 == 1.)
+                lowest = std::min(lowest, field(part.place));
+              if (part.phi_0 == 0.)
+                highest = std::max(highest, field(part.place));
+              phi_0[{std::lround(part.centre[1] / 0.375 - 0.5),
+                     std::lround(part.centre[0] / (M_PI / 4.) - 0.5)}] =
+                part.phi_0;
+            }
+          grow(lower, highest - lowest);
+          for (const auto &[place, value] : phi_0)
+            {
+              if (shape == "cup")
+                break;
+              const auto &[row, column] = place;
+              const bool is_seam        = column == 7;
+              (is_seam ? seam : elsewhere) +=
+                std::abs(value - phi_0.at({row, is_seam ? -8 : column + 1})) /
+                (is_seam ? 1. : 15.);
+            }
+        }
+    }
+  report("  no value of the field is higher than one that is bonded",
+         lower < 0.);
+  // patches that are cut would differ twice as often
+  report(
+    "  neighbours differ across the half-plane of 180 degrees as elsewhere",
+    std::abs(seam / elsewhere - 1.),
+    0.4);
+}
+
+
+
 // Results belong to the content of a file.
 void
 check_identity()
@@ -553,6 +734,8 @@ main()
   check_means();
   check_images();
   check_files();
+  check_bores();
+  check_random_in_bores();
   check_identity();
   check_messages();
 }

@@ -57,10 +57,10 @@ check_correlation()
   const double       l       = 0.7;
   const unsigned int samples = 4000;
   for (const double ratio : {0., 0.5, 1., 2.})
-    for (const Eigen::Vector2d &direction :
-         {Eigen::Vector2d(1, 0), Eigen::Vector2d(0.6, 0.8)})
+    for (const Eigen::Vector3d &direction :
+         {Eigen::Vector3d(0.6, 0.8, 0), Eigen::Vector3d(0.48, 0.36, 0.8)})
       {
-        const Eigen::Vector2d place(0.3, -1.1);
+        const Eigen::Vector3d place(0.3, -1.1, 0.4);
         double                sum = 0., product = 0.;
         for (unsigned int seed = 0; seed < samples; ++seed)
           {

@@ -1,9 +1,11 @@
 // A bond on one side of the implant makes the twisted chuck bear a lateral
 // force and a tilting moment: those of the closed form for two rigid bodies,
 // and, with the pattern turned by 90 degrees, those of the first turned by 90
-// degrees, all else being the same.
+// degrees, all else being the same. So do those of implants of any shape, with
+// any slave, whose pattern and load are turned together, or mirrored.
 
 #include <debond/models/closed_forms.h>
+#include <debond/support/number_text.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -154,10 +156,143 @@ check_turned()
 
 
 
+/** The chuck's motion, or its forces, turned by 90 degrees about z; or mirrored
+ *  at y = 0, with moments and angles the other way round. */
+Debond::Chuck::Vector6
+image_of(const Debond::Chuck::Vector6 &v, const bool mirrored)
+{
+  Debond::Chuck::Vector6 result;
+  if (mirrored)
+    result << v[0], -v[1], v[2], -v[3], v[4], -v[5];
+  else
+    result << -v[1], v[0], v[2], -v[4], v[3], v[5];
+  return result;
+}
+
+
+
+// An implant of a @p shape, and its bone.
+std::vector<std::string>
+bodies_of(const std::string &shape, const bool on_bone)
+{
+  std::vector<std::string> all{"Implant/Shape=" + shape,
+                               "Bone/Material=rigid",
+                               "Implant/Material=rigid",
+                               "Interface/Quadrature points=3",
+                               "Load steps/Times=0, 1",
+                               "Load steps/Steps=4"};
+  const auto               add = [&all](const std::vector<std::string> &more) {
+    all = all + more;
+  };
+  if (on_bone) // no point of the bone lies on a line of symmetry
+    add({"Bone/Cells=16, 16, 2"});
+  if (shape == "block")
+    add({"Implant/Size=4, 4, 2"});
+  else
+    add({"Implant/Radius=2", "Implant/Height=2"});
+  if (shape == "ring")
+    add({"Implant/Inner radius=1"});
+  if (shape == "ring" || !on_bone)
+    add(
+      {"Implant/Element=quadratic",
+       shape == "ring" ? "Implant/Cells=20, 2, 2" : "Implant/Cells=16, 1, 8"});
+  if (!on_bone)
+    add({shape == "cup" ? "Bone/Shape=cavity" : "Bone/Shape=sleeve",
+         "Bone/Outer radius=5",
+         "Bone/Element=quadratic",
+         "Bone/Cells=16, 1, 8",
+         "Interface/Interference=0.01"});
+  if (shape == "taper")
+    add({"Implant/Taper angle=5"});
+  if (shape == "screw") // which is the same after 90 degrees
+    add({"Implant/Starts=4", "Implant/Pitch=8"});
+  return all;
+}
+
+
+
+std::vector<Debond::Chuck::Vector6>
+forces_of(std::vector<std::string>      scene,
+          const Debond::Chuck::Vector6 &motion,
+          const std::string            &angle,
+          const double                  phase)
+{
+  scene.push_back("Interface/Bonding/Expression=0.5 + 0.2 * r / R * sin((" +
+                  angle + " - (" + Debond::to_text(phase, 17) +
+                  ")) * pi / 180)");
+  const char *const names[]{"Translation x",
+                            "Translation y",
+                            "Press",
+                            "Rotation x",
+                            "Rotation y",
+                            "Rotation z"};
+  for (unsigned int k = 0; k < 6; ++k)
+    scene.push_back("Chuck/" + std::string(names[k]) + "/Value=(" +
+                    Debond::to_text(k == 2 ? -motion[k] : motion[k], 17) +
+                    ") * t");
+  DrivenScene                         driven(scene_text, scene);
+  std::vector<Debond::Chuck::Vector6> rows;
+  while (driven.advance())
+    rows.push_back(driven.system.chuck_resultant());
+  return rows;
+}
+
+
+
+// Patterns that vary with angle and r, and motions drawn by chance.
+void
+check_shapes()
+{
+  for (const std::string shape :
+       {"coin", "block", "ring", "pin", "taper", "screw", "cup"})
+    {
+      const bool on_bone =
+        shape == "coin" || shape == "block" || shape == "ring";
+      double difference = 0., lateral = 0.;
+      for (const std::string slave : {"implant", "bone"})
+        {
+          auto scene = bodies_of(shape, on_bone);
+          scene.push_back("Interface/Slave=" + slave);
+          Debond::Chuck::Vector6 motion; // at the end [mm, degrees]
+          for (unsigned int k = 0; k < 6; ++k)
+            motion[k] = random_number(-0.005, 0.005) * (k < 3 ? 1. : 10.);
+          if (on_bone)
+            motion[2] = -0.02;
+          motion[5]          = random_number(0.5, 1.);
+          const double phase = random_number(-180., 180.);
+          const auto   first = forces_of(scene, motion, "angle", phase);
+          for (const bool mirrored : {false, true})
+            {
+              if (mirrored && shape == "screw")
+                continue; // its thread would be left-handed
+              const auto other = forces_of(scene,
+                                           image_of(motion, mirrored),
+                                           mirrored ? "-angle" : "(angle - 90)",
+                                           phase);
+              for (unsigned int i = 0; i < first.size(); ++i)
+                {
+                  const double scale = first.back().norm();
+                  grow(difference,
+                       (image_of(first[i], mirrored) - other[i]).norm() /
+                         scale);
+                  grow(lateral, first[i].head<2>().norm() / scale);
+                }
+            }
+        }
+      report(shape + ": pattern and load turned, or mirrored, forces differ by",
+             difference,
+             1e-9);
+      report("  there is a lateral force", lateral > 1e-3);
+    }
+}
+
+
+
 int
 main()
 {
   Debond::set_up_libraries();
   check_closed_form();
   check_turned();
+  check_shapes();
 }

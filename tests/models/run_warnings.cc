@@ -48,6 +48,16 @@ main()
   show("3 steps, which go over the peak", {"Load steps/Steps=1, 3"});
   show("100 steps", {"Load steps/Steps=1, 100"});
 
+  // on a coin of 2.5 mm
+  const std::string few = "Load steps/Steps=1, 1", rigid = "Material=rigid";
+  for (const std::string expression : {"r > 2.5", "r > 2.4"})
+    show("bonded where " + expression,
+         {few,
+          "Bone/" + rigid,
+          "Implant/" + rigid,
+          "Interface/Bonding/Pattern=expression",
+          "Interface/Bonding/Expression=" + expression});
+
   // Linear bodies are off by 1.7 % of the torque there, with a strain of 0.17.
   const std::string soft  = "Bone/Young modulus=40",
                     steps = "Load steps/Steps=4, 8";

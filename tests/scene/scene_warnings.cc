@@ -70,6 +70,8 @@ main()
   show({"Interface/Characteristic slip distance=22"});
   show({"Interface/Characteristic slip distance=22e-6"});
   show({"Interface/Characteristic slip distance=22e-6", law + "law=coulomb"});
+  show({"Interface/Slave=bone"});
+  show({"Interface/Slave=bone", "Interface/Characteristic slip distance=0.3"});
   show({"Interface/Law=adhesive"});
   show({"Interface/Law=adhesive", "Interface/Adhesive/Gap at strength=5"});
   show({"Interface/Law=adhesive",

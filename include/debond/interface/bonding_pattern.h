@@ -33,9 +33,10 @@ namespace Debond
 
     struct Part
     {
-      Eigen::Vector2d centre = Eigen::Vector2d::Zero(); ///< [mm]
-      double          area   = 0;                       ///< [mm^2]
-      double          phi_0  = 0;
+      Eigen::Vector3d place = Eigen::Vector3d::Zero(); ///< mean X [mm]
+      Eigen::Vector2d centre;    ///< the same on the face, see on_face() [mm]
+      double          area  = 0; ///< [mm^2]
+      double          phi_0 = 0;
     };
     const std::vector<Part> &
     parts() const
@@ -61,7 +62,7 @@ namespace Debond
       double       mean        = 0; ///< area mean of phi_0
       double       bonded_area = 0; ///< integral of phi_0 over the face [mm^2]
       unsigned int patches     = 0; ///< see patches()
-      double       largest_patch = 0; ///< [mm^2]
+      double       largest_patch = 0; ///< bonded area of the largest [mm^2]
       std::string  remark; ///< what a user should know of it, if anything
     };
     const Report &
@@ -104,9 +105,10 @@ namespace Debond
   };
 
   /** Refuses an expression, an image or a file that gives no pattern on this
-   *  implant, before anything runs. Throws EntryError. */
+   *  implant with @p n points, before anything runs. Throws EntryError. */
   void
   check_bonding_pattern(const BondingParameters &parameters,
-                        const BodyParameters    &implant);
+                        const BodyParameters    &implant,
+                        const PointsPerElement  &n);
 } // namespace Debond
 #endif

@@ -40,8 +40,8 @@ namespace Debond
   /**
    * A smooth random function of the place: nearly Gaussian, with mean 0,
    * variance 1 and the correlation exp(-(d/l)^2) between places at the distance
-   * d. A sum of plane waves with random directions, lengths and phases, so that
-   * it does not depend on any mesh.
+   * d in space. A sum of plane waves with random directions, lengths and
+   * phases, so that it does not depend on any mesh.
    */
   class RandomField
   {
@@ -51,12 +51,12 @@ namespace Debond
 
     /** The value at @p place [mm]. */
     double
-    operator()(const Eigen::Vector2d &place) const;
+    operator()(const Eigen::Vector3d &place) const;
 
   private:
     struct Wave
     {
-      Eigen::Vector2d k;     ///< wave vector [1/mm]
+      Eigen::Vector3d k;     ///< wave vector [1/mm]
       double          phase; ///< [rad]
     };
     std::vector<Wave> waves;

@@ -441,6 +441,8 @@ namespace Debond
         archive &point;
       for (CohesiveShare &share : shares)
         archive &share;
+      if (Archive::is_loading::value)
+        follow_pattern();
       archive &forces &accepted_positions &accepted_frame &accepted_centre;
       archive &works                                      &unprojected;
       if constexpr (is_in_memory<Archive>)
@@ -508,6 +510,9 @@ namespace Debond
     void
     face_at_rest(SlavePoint                               &point,
                  const std::array<std::vector<double>, 2> &errors);
+    /** Gives points of the bone the phi_0 of the implant that they face. */
+    void
+    follow_pattern();
     Projection
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,

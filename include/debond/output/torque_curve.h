@@ -193,6 +193,8 @@ namespace Debond
     double mean_phi_0 = 1;
     /** Whether there is a bond to break; else nothing is said of adhesion. */
     bool is_bonded = true;
+    /** Whether the mean phi falls as the bond breaks, and by nothing else. */
+    bool phi_only_falls = true;
     /** `Output / Friction energy from angle` [deg]; 0: from the curve. */
     double full_sliding_angle_deg = 0;
     /** First time and ends of the phases, `Load steps / Times`. */

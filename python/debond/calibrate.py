@@ -15,6 +15,7 @@ from .errors import RunError
 from .experiment import RIG
 from .files import csv_text, say, write_whole
 from .fit import fit_problem, problem_of
+from .measurement import rows_in_words
 from .page import write_page_if_possible
 from .problem import Runs
 from .scene import Scene
@@ -55,6 +56,7 @@ def json_of(done) -> Dict[str, Any]:
         "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(),
         "seconds": done.seconds, "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure,
         "failed": why_it_does_not_fit(done),
+        "measured_rows": [{"file": e.measured.file, **e.measured.counts} for e in problem.done],
         "measured_values": len(problem.measured), "noise_is_known": problem.noise_is_known, "unknowns": unknowns,
         "rig": _rigs(done), "correlations": correlations, "curves": curves, "noise": noises,
         "taken_as_known": done.taken_as_known,
@@ -170,9 +172,15 @@ def why_it_does_not_fit(done) -> str:
     largest = float(problem.values["Calibration / Largest misfit"])
     if not done.e_rel > largest:  # no number if no row is used
         return ""
-    opposite = problem.measured @ done.optima[0].curve < 0
+    curve, doubts = done.optima[0].curve, ""
+    for series in problem.series:
+        fitted = abs(curve[series.slice]).max()
+        if not 0.5 < series.scale / fitted < 2:
+            doubts += (f"; the largest {series.name} is {series.scale:.4g} {series.column.unit} in the file and {fitted:.4g} in the fit: is "
+                       "its unit right?")
+    opposite = problem.measured @ curve < 0
     return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more "
-            f"than Calibration / Largest misfit, {100 * largest:.3g} %"
+            f"than Calibration / Largest misfit, {100 * largest:.3g} %" + doubts
             + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before their "
                "unit in Output / Reference columns, as in [-N m]" if opposite else ""))
 
@@ -189,9 +197,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     if force and os.path.exists(log):
         os.remove(log)
     for experiment in problem.done:
-        if experiment.measured.n_left_out:
-            say(f"{experiment.measured.n_left_out} rows of {experiment.measured.file} are not in the windows, stay where the "
-                "row before was, or are beyond what the scene comes to")
+        say(rows_in_words(experiment.measured))
     say(f"{len(problem.measured)} measured values, {len(problem.unknowns.list)} unknowns")
     problem.runs = Runs(executor, threads, log)
     try:
@@ -224,11 +230,12 @@ def check_lines(problem):
         ranges = "".join(f"{column.name} from {values.min():.6g} to {values.max():.6g} {column.unit}; "
                          for column, values in zip((over, *experiment.columns), (measured.over, *measured.values.T)))
         why_not = experiment.why_no_closed_form
-        yield (f"{measured.file}: {len(measured.over)} rows, {ranges}"
-               + (f"no closed form: {why_not}" if why_not else "searched with the closed form first"))
+        yield f"{rows_in_words(measured)}; {ranges}" + (f"no closed form: {why_not}" if why_not else "searched with the closed form first")
         if over.is_angle and any(column.is_torque and numpy.sum(values) * experiment.last_angle < 0
                                  for column, values in zip(experiment.columns, measured.values.T)):
             yield (f"warning: {measured.file}: {_debond.CurveComparison.opposite_sign}")
+    for line in dict.fromkeys(text for e in problem.experiments for text in (*e.scene.warnings, *e.remarks)):
+        yield "warning: " + line
 
 
 def main(scene, options):

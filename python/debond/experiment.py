@@ -2,7 +2,9 @@
 next. The rig stands between both,
 
     shown angle  = angle + offset + slack + compliance T,
-    shown torque = T + offset + drift * share of the test.
+    shown torque = T + offset + drift * share of the test,
+
+and the same with displacements and forces.
 """
 
 import functools
@@ -18,7 +20,26 @@ from . import measurement
 from .errors import RunError, SceneError
 
 RIG = {"angle_offset": "Angle offset", "slack": "Slack", "compliance": "Machine compliance", "torque_offset": "Torque offset",
-       "drift": "Torque drift"}
+       "drift": "Torque drift", "displacement_offset": "Displacement offset", "displacement_slack": "Displacement slack",
+       "displacement_compliance": "Displacement compliance", "force_offset": "Force offset", "force_drift": "Force drift"}
+# which of them act on positions and on loads, by the unit of these
+_OF_POSITION = {"deg": ("angle_offset", "slack", "compliance"),
+                "mm": ("displacement_offset", "displacement_slack", "displacement_compliance")}
+_OF_LOAD = {"N mm": ("torque_offset", "drift"), "N": ("force_offset", "force_drift")}
+
+
+def rigs_of(columns):
+    """For each column the keys of the rig that change what an instrument shows of it: of several in the same unit the first."""
+    keys = [{"position": _OF_POSITION, "load": _OF_LOAD}.get(column.kind, {}).get(column.unit, ()) for column in columns]
+    return [one if one not in keys[:i] else () for i, one in enumerate(keys)]
+
+
+def _is_default(name, text):
+    default = {"Seed": "1", "Noise": "auto"}.get(name, "0")
+    try:
+        return float(text) == float(default)
+    except ValueError:
+        return text == default
 
 
 @functools.lru_cache(maxsize=16)
@@ -60,7 +81,9 @@ class Experiment:
         self.columns = [measurement.curve_column(self.scene, column.strip(), "Calibration / Curves")
                         for column in (measurement.given(self.values["Calibration / Curves"]) or load).split(",")]
         self.over = measurement.curve_column(self.scene, measurement.given(self.values["Calibration / Over"]) or over, "Calibration / Over")
-        self.measured = measured or measurement.read(self.scene, self.values, self.columns, self.over, self._largest_shift())
+        self.rigs = rigs_of([self.over, *self.columns])
+        self.measured = measured or measurement.read(self.scene, self.values, self.columns, self.over, *self._shifts())
+        self.direction = measurement.direction_of(self.measured.over, self.measured.branch) or 1
         self.text = _debond.text_of(without)
         self.curve = _debond.VaryingCurve(without, name)
         self.is_finite_elements = self.values["Model"] == "finite elements"
@@ -101,9 +124,31 @@ class Experiment:
         starts = [start, *(ends[-1] for ends in steps[:-1])]
         return [numpy.unique(numpy.r_[ends, (numpy.array([begin, *ends[:-1]]) + ends) / 2]).tolist() for begin, ends in zip(starts, steps)]
 
-    def _largest_shift(self):
+    def _shifts(self):
+        """By how much the instrument may show more than the implant moves, without a load and per load."""
+        if self.over.kind != "position":
+            return 0.0, 0.0
+        offset, slack, compliance = self.rigs[0]
         rigs = [self.changes(values)[1] for values in (self.unknowns.lower, self.unknowns.upper)]
-        return sum(max(rig[key] for rig in rigs) for key in ("angle_offset", "slack"))
+        return sum(max(abs(rig[key]) for rig in rigs) for key in (offset, slack)), self.changes(self.unknowns.starts)[1][compliance]
+
+    @functools.cached_property
+    def remarks(self):
+        """What is to be said before a fit: of the file, and of entries of Calibration that nothing reads."""
+        used = set().union(*self.rigs)
+        readers = {RIG[key]: "measured " + {"deg": "angles", "mm": "displacements", "N mm": "torques", "N": "forces"}[unit]
+                   for unit, keys in (*_OF_POSITION.items(), *_OF_LOAD.items()) for key in keys if key not in used}
+        if self.values["Calibration / Measure"] == "least squares":
+            readers["Seed"] = "Measure = e_mp or e_rel"
+        if measurement.given(self.values["Calibration / Noise columns"]):
+            readers["Noise"] = "Noise columns = none"
+        # what an included file sets is for several scenes
+        own = {entry.name: entry.value for entry in self.given
+               if ":" not in entry.place or entry.place.startswith(self.name + ":")}
+        return self.measured.remarks + [
+            f"{full} = {own[full]} has no effect in this scene: it is for {reader}"
+            for name, reader in readers.items() for full in ["Calibration / " + name]
+            if full in own and not _is_default(name, own[full])]
 
     def _entries_with(self, j):
         """Names of the entries that hold an unknown."""
@@ -169,7 +214,7 @@ class Experiment:
         compliance = compliance * numpy.exp(numpy.clip(slopes @ (values - centre), -2, 2))
         changes, rig = self.changes(values)
         last = self.last_angle
-        angles = self.measured.over - rig["angle_offset"] - rig["slack"]
+        angles = self.measured.over - self.measured.signs[0] * rig["angle_offset"] - self.direction * rig["slack"]
         angles = angles[(angles * last > 0) & (abs(angles) < abs(last))]
         angles = numpy.unique(numpy.concatenate([numpy.linspace(0, last, 101), angles]))[::1 if last > 0 else -1]
         torque, force = self.curve.by_foundation(list(changes), list(compliance), list(angles))
@@ -181,37 +226,53 @@ class Experiment:
     def task(self, values, steps):
         """Of a run, for run_task()."""
         changes, _ = self.changes(values)
-        columns = {self.over.key, "torque_Nmm", *(column.key for column in self.columns)}
+        positions = [column for column in (self.over, *self.columns) if column.kind == "position"]
+        columns = {self.over.key, *(column.key for column in self.columns), *(column.load for column in positions)}
         return self.text, self.name, changes, tuple(tuple(ends) for ends in steps), tuple(sorted(columns))
 
     def seen(self, rows, rig):
         """Rows of a run as the instruments show them, at the measured rows: curves x n, one curve behind the other. The rows
         are joined by straight lines, branch by branch. Before the beginning of a branch the curve stays as it begins, beyond
         its end it goes on straight. Raises RunError."""
-        if rig["slack"] != 0:
-            rows = _with_rows_without_torque(rows)
-        measured, torque = self.measured, rows["torque_Nmm"]
-        torque = numpy.where(abs(torque) > 1e-9 * abs(torque).max(initial=0), torque, 0)
-        x = rows[self.over.key]
-        if self.over.is_angle:
-            x = x + rig["angle_offset"] + numpy.where(torque >= 0, rig["slack"], 0) + rig["compliance"] * torque
+        measured = self.measured
+        if self.over.kind == "position" and rig[self.rigs[0][1]] != 0:
+            rows = _with_rows_without_load(rows, self.over.load)
+        x, *curves = (self._shown(i, column, rows, rig) for i, column in enumerate((self.over, *self.columns)))
         branch = measurement.branches_of(x, measured.least_turn)
+        begins = measurement.direction_of(x, branch), measurement.direction_of(measured.over, measured.branch)
+        if begins[0] * begins[1] < 0 and branch[-1] > measured.branch[-1]:
+            branch = branch - 1  # a bond is pressed before it is pulled, and the file begins with the pull
         if len(measured.branch) and branch[-1] < measured.branch[-1]:
             raise RunError(f"{measured.file} turns back {measured.branch[-1]} times, the computed curve {branch[-1]} times")
         result = numpy.empty((len(self.columns), len(measured.over)))
         for b in numpy.unique(measured.branch):
             at = measured.branch == b
             first, last = numpy.searchsorted(branch, b), numpy.searchsorted(branch, b, side="right") - 1
-            begin, end, share = _neighbours(x[first - (b > 0):last + 1], measured.over[at])
-            for c, column in enumerate(self.columns):
-                y = rows[column.key][first - (b > 0):last + 1]
+            first -= first > 0  # the row at the turn
+            begin, end, share = _neighbours(x[first:last + 1], measured.over[at])
+            for c, curve in enumerate(curves):
+                y = curve[first:last + 1]
                 result[c, at] = (1 - share) * y[begin] + share * y[end]
         for c, column in enumerate(self.columns):
-            if column.is_torque:
-                result[c] += rig["torque_offset"] + rig["drift"] * measured.share
+            if column.kind == "load" and self.rigs[c + 1]:
+                offset, drift = self.rigs[c + 1]
+                result[c] += measured.signs[c + 1] * (rig[offset] + rig[drift] * measured.share)
         if not numpy.isfinite(result).all():
             raise RunError("the computed curve has no values where something has been measured")
         return result.ravel()
+
+
+    def _shown(self, i, column, rows, rig):
+        """Column i of a run, 0: `over`, as the machine moves while it is measured. The test begins before the slack is passed."""
+        values, measured = rows[column.key], self.measured
+        if column.kind != "position" or not self.rigs[i]:
+            return values
+        load, (offset, slack, compliance) = rows[column.load], self.rigs[i]
+        load = numpy.where(abs(load) > 1e-9 * abs(load).max(initial=0), load, 0)
+        way = self.direction
+        if i > 0 and self.is_done:
+            way = measurement.direction_of(measured.values[:, i - 1], measured.branch) or 1
+        return values + measured.signs[i] * rig[offset] + numpy.where(way * load >= 0, way * rig[slack], 0) + rig[compliance] * load
 
 
 def _neighbours(x, places):
@@ -231,9 +292,9 @@ def _neighbours(x, places):
     return begin, end, share
 
 
-def _with_rows_without_torque(rows):
-    """Where the torque changes its sign the slack is passed at rest: adds a row just before and one just after."""
-    torque = rows["torque_Nmm"]
+def _with_rows_without_load(rows, load):
+    """Where the load changes its sign the slack is passed at rest: adds a row just before and one just after."""
+    torque = rows[load]
     rounding = 1e-9 * abs(torque).max(initial=0)
     is_some = abs(torque) > 2 * rounding
     before = numpy.flatnonzero((torque[:-1] * torque[1:] < 0) & is_some[:-1] & is_some[1:])
@@ -242,7 +303,7 @@ def _with_rows_without_torque(rows):
     for name, values in rows.items():
         between = (1 - share) * values[before] + share * values[before + 1]
         pairs = numpy.repeat(between, 2)
-        if name == "torque_Nmm":
+        if name == load:
             pairs = 2 * rounding * numpy.sign(numpy.column_stack([torque[before], torque[before + 1]])).ravel()
         result[name] = numpy.insert(values, numpy.repeat(before + 1, 2), pairs)
     return result

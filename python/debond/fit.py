@@ -190,7 +190,7 @@ class Fit:
 
     def __init__(self, problem, optima, closed, clock):
         self.problem, self.optima, self.closed = problem, optima, closed
-        self.warnings: List[str] = []
+        self.warnings: List[str] = list(dict.fromkeys(text for experiment in problem.experiments for text in experiment.remarks))
         best = optima[0]
         if not problem.why_no_closed_form:
             problem.settle(best.values)
@@ -240,7 +240,7 @@ class Fit:
         measured, curve = self.problem.measured[series.slice], self._best.curve[series.slice]
         difference = curve - measured
         sd = numpy.inf if series.experiment.measured.sd is None else 1 / self.problem.weights[series.slice]
-        used = (abs(measured) > 0.01 * series.scale) & ((sd <= series.scale) | numpy.isinf(sd))
+        used = numpy.broadcast_to((sd <= series.scale) | numpy.isinf(sd), measured.shape)
         n, rms = used.sum(), numpy.sqrt(numpy.mean(difference**2)) / series.scale
         # row by row: whatever a curve is drawn over, it is compared as one that turns on
         row = numpy.arange(n + 1)

@@ -345,7 +345,8 @@ def bootstrap(problem, best, derivatives, generator, n_samples=200, n_iterations
             root = 1 / numpy.sqrt(numpy.hypot(drawn - J @ change, 1e-3))
             change = numpy.linalg.lstsq(root[:, None] * J, root * drawn, rcond=None)[0]
         samples[sample] = change
-    return numpy.quantile(samples, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2], axis=0)
+    # residuals of a curve that does not fit push all samples to one side, which is no scatter
+    return numpy.quantile(samples, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2], axis=0) - numpy.median(samples, axis=0)
 
 
 def with_test(problem, told, derivatives):

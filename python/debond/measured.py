@@ -33,6 +33,11 @@ def _plain_name(name):
     return re.split(r"[\[(]", name)[0].strip()
 
 
+def is_turned(item):
+    """Whether a minus stands before the unit in brackets of a chosen column."""
+    return re.search(r"[\[(]\s*-", item) is not None
+
+
 def _chosen_column(table, item, quantity, refuse):
     """Number from 0, factor and what is said of the unit of the column that is meant by `item`: a name or a number from 1, with
     its unit in brackets, if that is given, behind a minus if values of the other sign are meant."""
@@ -50,7 +55,7 @@ def _chosen_column(table, item, quantity, refuse):
     if unit is None or unit.quantity != quantity:
         why = why_ambiguous(says)
         refuse(f"the column '{name}' needs a unit, {UNITS[quantity]}, in brackets behind its name{why and f' ({why})'}")
-    return at, -unit.factor if re.match(r".\s*-", bracket) else unit.factor, bracket and " as " + bracket
+    return at, -unit.factor if is_turned(item) else unit.factor, bracket and " as " + bracket
 
 
 def _recognised_column(table, name, quantity, example, columns_entry):

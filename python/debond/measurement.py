@@ -16,7 +16,7 @@ ENTRY = "Output / Reference curve"
 class CurveColumn:
     """A quantity that is measured: the time, or a reaction or position of the chuck."""
 
-    name: str  # as a column of torque.csv, or angle_deg
+    name: str  # as a column of torque.csv
     key: str  # column of the rows of a run
     kind: str  # "time", "load" or "position"
     unit: str
@@ -24,19 +24,24 @@ class CurveColumn:
 
     is_angle = property(lambda self: self.kind == "position" and self.component == 5)
     is_torque = property(lambda self: self.kind == "load" and self.component == 5)
+    # of the rows of a run: the load along or about the axis of a position
+    load = property(lambda self: "torque_Nmm" if self.component == 5 else _debond.chuck_columns[self.component][1])
 
 
 def curve_column(scene, name, entry):
     """Raises SceneError that names the `entry` of the scene."""
     if name == "time":
         return CurveColumn(name, name, "time", "")
+    for machine, unit, k in (("machine_angle_deg", "deg", 5), ("machine_uz_mm", "mm", 2)):
+        if name == machine:
+            return CurveColumn(name, name, "position", unit, k)
     for position, load, unit, load_unit, k in _debond.chuck_columns:
         if name == position or (k == 5 and name == "angle_deg"):
             return CurveColumn(name, position, "position", unit, k)
         if name == load or (k == 5 and name == "torque_Nmm"):
             return CurveColumn(name, "torque_Nmm" if name == "torque_Nmm" else load, "load", load_unit, k)
-    scene.refuse(entry, "there is no such curve: expected time, angle_deg, torque_Nmm or a column of torque.csv that begins "
-                        "with chuck_")
+    scene.refuse(entry, "there is no such curve: expected time, angle_deg, torque_Nmm, machine_angle_deg, machine_uz_mm or a column "
+                        "of torque.csv that begins with chuck_")
 
 
 def branches_of(over, least):
@@ -61,6 +66,12 @@ def branches_of(over, least):
     return branch
 
 
+def direction_of(values, branch):
+    """+1 or -1: which way values go before they turn for the first time; 0 if they stay."""
+    way = [(-1) ** b * (values[branch == b][-1] - values[branch == b][0]) for b in numpy.unique(branch)]
+    return next((1 if one > 0 else -1 for one in way if one != 0), 0)
+
+
 @dataclass
 class Measurement:
     """Rows of a measured curve, in the order of the file."""
@@ -74,7 +85,17 @@ class Measurement:
     sd: numpy.ndarray = None  # n x curves: of the noise, as it was stated; None: not stated
     parts: list = field(default_factory=list)  # slices of rows without a gap of the windows
     share: numpy.ndarray = None  # of each row: how much of the rows of the file is over
-    n_left_out: int = 0  # rows that are not fitted
+    signs: list = field(default_factory=list)  # of `over` and the curves: -1 where Reference columns have a minus
+    counts: dict = field(default_factory=dict)  # rows of the file: all, used, and why others are not
+    remarks: list = field(default_factory=list)  # what may be wrong with the file
+
+
+def rows_in_words(measured):
+    counts = measured.counts
+    why = {"outside_windows": "outside the windows", "at_rest_or_turns": "where the row before was, or at a turn",
+           "beyond_scene": "beyond what the scene comes to"}
+    return f"{measured.file}: {counts['used']} of {counts['rows']} rows are fitted" + "".join(
+        f"; {counts[key]} are {text}" for key, text in why.items() if counts[key])
 
 
 def given(text):
@@ -100,7 +121,8 @@ def _places(scene, over, times):
     times = numpy.asarray(times, dtype=float)
     if over.kind == "time":
         return times
-    return scene.prescribed(list(times)).get(over.key) if over.kind == "position" else None
+    # by what a compliant machine does; the implant moves less
+    return scene.prescribed(list(times)).get(_debond.chuck_columns[over.component][0]) if over.kind == "position" else None
 
 
 def _least_turn(places):
@@ -120,17 +142,17 @@ def _reach(places, largest_shift):
     if places is None:
         return -numpy.inf, numpy.inf
     margin = 1e-9 * numpy.ptp(places)
-    return places.min() - margin - abs(largest_shift), places.max() + margin + largest_shift
+    return places.min() - margin - largest_shift, places.max() + margin + largest_shift
 
 
-def _used_rows(scene, values, columns, over, table, branch, reach):
-    """Numbers of the rows that are fitted, and of each the window that it is in."""
+def _used_rows(scene, values, columns, over, table, branch, reach, compliance):
+    """Numbers of the rows that are fitted, of each the window that it is in, and how many there are: all, used, and why others
+    are not."""
     places = table[:, 0]
     implant = places.copy()  # where the implant is while the machine shows that place
-    if over.is_angle:
-        for c, column in enumerate(columns):
-            if column.is_torque:
-                implant -= float(values["Calibration / Machine compliance"]) * table[:, c + 1]
+    for c, column in enumerate(columns):
+        if column.kind == "load" and over.kind == "position" and column.component == over.component:
+            implant -= compliance * table[:, c + 1]
     bounds = numbers_of(values, "Windows")
     windows = list(zip(bounds[::2], bounds[1::2])) or [(-numpy.inf, numpy.inf)]
     window = numpy.full(len(places), -1)
@@ -141,13 +163,21 @@ def _used_rows(scene, values, columns, over, table, branch, reach):
     stays = numpy.r_[places[1:] == places[:-1], False]
     turns = numpy.r_[branch[1:] != branch[:-1], False]
     turns[0] = False
-    used = numpy.flatnonzero((window >= 0) & ~stays & ~turns & (implant >= least) & (implant <= most))
-    rows = f"none of its {len(places)} rows, {over.name} from {places.min():.4g} to {places.max():.4g}, is in"
+    could = (window >= 0) & ~stays & ~turns
+    used = numpy.flatnonzero(could & (implant >= least) & (implant <= most))
+    of = f"of its {len(places)} rows, {over.name} from {places.min():.4g} to {places.max():.4g},"
     if (window < 0).all():
-        scene.refuse("Calibration / Windows", f"{values[ENTRY]}: {rows} them")
+        scene.refuse("Calibration / Windows", f"{values[ENTRY]}: none {of} is in them")
+    counts = {"rows": len(places), "used": len(used), "outside_windows": int((window < 0).sum()),
+              "at_rest_or_turns": int((window >= 0).sum() - could.sum()), "beyond_scene": int(could.sum() - len(used))}
+    comes_to = f"what the scene comes to, {least:.4g} to {most:.4g} {over.unit}"
     if len(used) == 0:
-        scene.refuse(ENTRY, f"{values[ENTRY]}: {rows} what the scene comes to, {least:.4g} to {most:.4g}")
-    return used, window[used]
+        scene.refuse(ENTRY, f"{values[ENTRY]}: none {of} is in {comes_to}")
+    if len(used) < float(values["Calibration / Smallest share of rows"]) * could.sum():
+        scene.refuse(ENTRY, f"{values[ENTRY]}: only {len(used)} {of} are in {comes_to}: is {over.name} in the unit that the file says, and does "
+                            "the scene go as far as the test? Calibration / Windows leaves out what is not to be fitted, a smaller "
+                            "Calibration / Smallest share of rows takes these rows")
+    return used, window[used], counts
 
 
 def _check(scene, values, columns):
@@ -166,21 +196,30 @@ def _proposed(scene, columns, over, least_turn):
         scene.refuse("Calibration / Over", "what a test that has not been done is drawn over must be prescribed by its scene")
     kept = places[numpy.r_[places[1:] != places[:-1], True]]
     return Measurement("", kept, numpy.zeros((0, len(columns))), branches_of(kept, least_turn), least_turn,
-                       numpy.zeros(len(columns)), parts=[slice(0, len(kept))], share=numpy.linspace(0, 1, len(kept)))
+                       numpy.zeros(len(columns)), parts=[slice(0, len(kept))], share=numpy.linspace(0, 1, len(kept)), signs=[1] * (1 + len(columns)))
 
 
-def read(scene, values, columns, over, largest_shift):
-    """The Measurement of a scene, whose entries are `values`: `columns` along `over`. The rig may show `largest_shift` [deg]
-    more than the implant has turned. Raises SceneError."""
+def _remarks(file, over, places, planned):
+    """What may be wrong with measured places, in words."""
+    if planned is None or over.kind == "time":
+        return []
+    measured, most = abs(places).max(), abs(planned).max()
+    return [f"{file}: {over.name} ends at {measured:.4g} and the scene at {most:.4g} {over.unit}: is it in {over.unit}?"] * bool(
+        measured < 0.05 * most)
+
+
+def read(scene, values, columns, over, largest_shift=0.0, compliance=0.0):
+    """The Measurement of a scene, whose entries are `values`: `columns` along `over`. The rig may show `largest_shift` more than
+    the implant has moved, and as much as the load times `compliance`. Raises SceneError."""
     _check(scene, values, columns)
     planned, file = _places(scene, over, scene.sample_times), given(values[ENTRY])
     least_turn = _least_turn(planned)
     if not file:
         return _proposed(scene, columns, over, least_turn)
-    table = _read(scene, file, [column.name for column in (over, *columns)], given(values["Output / Reference columns"]))
+    choice = given(values["Output / Reference columns"])
+    table = _read(scene, file, [column.name for column in (over, *columns)], choice)
     branch = branches_of(table[:, 0], least_turn)
-    reach = _reach(planned, largest_shift if over.is_angle else 0)
-    used, window = _used_rows(scene, values, columns, over, table, branch, reach)
+    used, window, counts = _used_rows(scene, values, columns, over, table, branch, _reach(planned, largest_shift), compliance)
     scale = numpy.abs(table[:, 1:]).max(axis=0)  # of the whole file, so that a window changes no weight
     for column, largest in zip(columns, scale):
         if largest == 0:
@@ -188,7 +227,8 @@ def read(scene, values, columns, over, largest_shift):
     edges = [0, *(numpy.flatnonzero(numpy.diff(window)) + 1), len(used)]
     return Measurement(file, table[used, 0], table[used, 1:], branch[used], least_turn, scale,
                        _stated_noise(scene, values, columns, used, scale), [slice(a, b) for a, b in zip(edges, edges[1:])],
-                       used / max(1, len(table) - 1), len(table) - len(used))
+                       used / max(1, len(table) - 1), [-1 if measured.is_turned(item) else 1 for item in (choice or "," * len(columns)).split(",")],
+                       counts, _remarks(file, over, table[:, 0], planned))
 
 
 def _read(scene, file, names, columns, columns_entry="Output / Reference columns"):

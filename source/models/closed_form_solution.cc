@@ -38,9 +38,9 @@ namespace Debond
       refuse_if(!scene.implant.geometry().has_closed_forms(),
                 "Implant / Shape",
                 "closed forms are for the flat disk of a coin");
-      refuse_if(bonding.pattern != BondingPatternKind::homogeneous &&
-                  !(bonding.pattern == BondingPatternKind::disk &&
-                    is_foundation),
+      const auto pattern = scene.interface.bonding_of_law().pattern;
+      refuse_if(pattern != BondingPatternKind::homogeneous &&
+                  !(pattern == BondingPatternKind::disk && is_foundation),
                 "Interface / Bonding / Pattern",
                 std::string("this closed form knows homogeneous bonding ") +
                   (is_foundation ? "and the disk only" : "only"));
@@ -344,10 +344,17 @@ namespace Debond
   {
     if (scene.bone.modulus)
       return "Young's modulus of the bone varies";
+    if (scene.interface.friction->depends_on_rate())
+      return "friction depends on the sliding speed";
     try
       {
+        check_scene_is_simple(scene);
         const LoadHistory history(scene);
-        return history.loads.back().angle == 0. ? "nothing turns" : "";
+        const Load        last = history.loads.back();
+        const bool is_pressed  = pressure_under(scene, 1., last, last) > 0.;
+        return last.angle == 0. ? "nothing turns" :
+               !is_pressed      ? "nothing presses the coin while it turns" :
+                                  "";
       }
     catch (const EntryError &error)
       {

@@ -74,19 +74,14 @@ namespace Debond
   std::string
   VaryingCurve::why_no_closed_form() const
   {
-    Scene as_foundation       = given;
-    as_foundation.model       = ModelKind::foundation;
-    const std::string why     = Debond::why_no_closed_form(as_foundation);
-    const auto        pattern = given.interface.bonding_of_law().pattern;
-    return !why.empty() ? why :
-           given.load_steps.follow_path ?
-                          "the scene follows a path" :
+    Scene as_foundation   = given;
+    as_foundation.model   = ModelKind::foundation;
+    const std::string why = Debond::why_no_closed_form(as_foundation);
+    return !why.empty()                 ? why :
+           given.load_steps.follow_path ? "the scene follows a path" :
            given.chuck.component[twist].stiffness > 0. ?
-                          "the machine is compliant" :
-           pattern != BondingPatternKind::homogeneous &&
-               pattern != BondingPatternKind::disk ?
-                          "closed forms know homogeneous bonding and the disk" :
-                          "";
+                                          "the machine is compliant" :
+                                          "";
   }
 
 

@@ -206,17 +206,23 @@ namespace Debond
 
     const double T_largest = largest(measured, torque_of),
                  T_max     = largest(computed, torque_of);
-    double sum_mp = 0., sum = 0., products = 0., most = -1.;
+    double       sum_mp = 0., sum = 0., products = 0., most = -1.;
+    unsigned int rows_mp = 0, rows_at_rest = 0;
     for (const auto &[angle, T_measured] : measured)
       {
         const double turned = rotation.direction * angle;
         // angles go from degrees to radians and back
         const double T = torque_at(curve, turned, rotation.tolerance);
-        if (!((turned > 0. || !axes.is_torsion()) &&
-              std::abs(T_measured) > 0.01 * T_largest && std::isfinite(T)))
+        rows_at_rest += axes.is_torsion() && turned == 0.;
+        if (!((turned > 0. || !axes.is_torsion()) && T_largest > 0. &&
+              std::isfinite(T)))
           continue;
         const double difference = std::abs(T - T_measured);
-        sum_mp += difference / std::abs(T_measured);
+        if (std::abs(T_measured) > 0.01 * T_largest)
+          {
+            sum_mp += difference / std::abs(T_measured);
+            ++rows_mp;
+          }
         sum += difference;
         products += T * T_measured;
         ++rows_used;
@@ -228,11 +234,11 @@ namespace Debond
       }
     remarks =
       doubts_of(computed, measured, axes, rows_used > 1 && products < 0.);
-    if (rows_used > 0 && 2 * rows_used < measured.size())
+    const unsigned int n = measured.size() - rows_at_rest;
+    if (rows_used > 0 && 2 * rows_used < n)
       remarks.push_back(
-        "of " + std::to_string(measured.size()) +
-        " rows of the reference curve only " + std::to_string(rows_used) +
-        " are compared: the run goes from " +
+        "of " + std::to_string(n) + " rows of the reference curve only " +
+        std::to_string(rows_used) + " are compared: the run goes from " +
         to_text(computed.front().first, 4) + " to " +
         to_text(computed.back().first, 4) + " " + axes.position_unit());
     if (rows_used == 0)
@@ -242,7 +248,7 @@ namespace Debond
                      ranges_of(computed, measured, axes);
         return;
       }
-    e_mp            = sum_mp / rows_used;
+    e_mp            = sum_mp / rows_mp; // 0 / 0 without one: undefined
     e_rel           = sum / rows_used / T_max;
     difference_mean = sum / rows_used / T_largest;
     difference_max  = most / T_largest;

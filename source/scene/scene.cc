@@ -81,7 +81,12 @@ namespace Debond
       if (!named && !output.axes.is_torsion() && !can_read(output.axes) &&
           can_read(CurveAxes()))
         output.axes = CurveAxes();
-      read(output.axes); // says what is wrong
+      // fits read their curves themselves, which may be others
+      const auto &changed = scene.changed_entries;
+      if (std::none_of(changed.begin(), changed.end(), [](const auto &entry) {
+            return entry.name == "Task";
+          }))
+        read(output.axes); // says what is wrong
     }
   } // namespace
 

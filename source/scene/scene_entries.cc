@@ -106,36 +106,51 @@ namespace Debond
     void
     declare_rig(EntryTable &table)
     {
-      table.add("Angle offset",
-                "0",
-                nullptr,
-                Allowed::number("deg"),
-                "Angle [deg] that the instrument shows while the implant has "
-                "not turned.");
-      table.add("Slack",
-                "0",
-                nullptr,
-                Allowed::number("deg"),
-                "Backlash [deg]: angle by which the machine turns before it "
-                "moves the implant; after a reversal it turns back by as "
-                "much.");
-      table.add("Machine compliance",
-                "0",
-                nullptr,
-                Allowed::number_from(0, "deg/(N mm)"),
-                "Additional rotation of the machine relative to the implant, "
-                "per torque [deg/(N mm)].");
-      table.add("Torque offset",
-                "0",
-                nullptr,
-                Allowed::number("N mm"),
-                "Torque [N mm] that the instrument shows without load.");
-      table.add("Torque drift",
-                "0",
-                nullptr,
-                Allowed::number("N mm"),
-                "Linear drift [N mm] of the torque offset from the first to "
-                "the last row of the measured file.");
+      const auto add = [&table](const std::string &name,
+                                const std::string &unit,
+                                const bool         is_signed,
+                                const std::string &text) {
+        table.add(name,
+                  "0",
+                  nullptr,
+                  is_signed ? Allowed::number(unit) :
+                              Allowed::number_from(0, unit),
+                  text + " [" + unit + "].");
+      };
+      const std::string sign =
+        ", in the sign of the file, before a minus in Reference columns";
+      for (const bool turns : {true, false})
+        {
+          const std::string way       = turns ? "Angle" : "Displacement",
+                            load      = turns ? "Torque" : "Force",
+                            unit      = turns ? "deg" : "mm",
+                            load_unit = turns ? "N mm" : "N";
+          add(way + " offset",
+              unit,
+              true,
+              way + " that the instrument shows before the implant has moved" +
+                sign);
+          add(turns ? "Slack" : "Displacement slack",
+              unit,
+              true,
+              "Backlash: way of the machine before it moves the implant, in "
+              "the direction in which the measured curve begins; after a "
+              "reversal it moves back by as much");
+          add(turns ? "Machine compliance" : "Displacement compliance",
+              unit + (turns ? "/(N mm)" : "/N"),
+              false,
+              "Additional motion of the machine relative to the implant, per "
+              "load about or along the same axis");
+          add(load + " offset",
+              load_unit,
+              true,
+              load + " that the instrument shows without load" + sign);
+          add(load + " drift",
+              load_unit,
+              true,
+              "Linear drift of this offset from the first to the last row of "
+              "the measured file");
+        }
     }
 
 
@@ -206,6 +221,13 @@ namespace Debond
                 "Largest e_rel, Eq. (50), of an acceptable fit. Above it the "
                 "program says that nothing was found, and ends with exit "
                 "code 2.");
+      table.add("Smallest share of rows",
+                "0.5",
+                nullptr,
+                Allowed::number_between(0, 1, ""),
+                "A fit that can use a smaller share of the rows in Windows is "
+                "refused: the others are beyond what the scene comes to, as "
+                "with angles in another unit.");
       table.add("Starts",
                 "20",
                 nullptr,

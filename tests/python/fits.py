@@ -17,6 +17,7 @@ from scipy import signal, stats
 
 import debond
 from debond import intervals, noise
+from debond.calibrate import why_it_does_not_fit
 
 fits = importlib.import_module("debond.fit")  # the module, not the function
 warnings.simplefilter("error")
@@ -124,6 +125,125 @@ def check_uneven_noise():
         is_met = abs(best(TWO, "outliers.csv", Measure=measure).values[0] - 0.58) < 1e-3
         report(f"{measure} is {'' if measure == 'least squares' else 'not '}led astray by a few wrong rows",
                is_met == (measure != "least squares"))
+
+
+def check_signs():
+    """A test the other way round has the same slack; a file whose signs are turned has the offsets that stand in it."""
+    unknowns = {**TWO, "Calibration/Slack": "<<slack: 0.3 in 0..2>>"}
+    for direction in (1, -1):
+        turned = SCENE.replace("10 * max", f"{10 * direction} * max")
+        rows = debond.Scene(None, TRUTH, text=turned).run().rows
+        used = rows["angle_deg"] != 0
+        angle, torque = rows["angle_deg"][used], rows["torque_Nmm"][used]
+        write("slack.csv", {"angle_deg": angle + direction * 0.7, "torque_Nmm": torque})
+        problem = fits.problem_of(debond.Scene(None, {**unknowns, "Output/Reference curve": "slack.csv"}, text=turned))
+        found = SimpleNamespace(names=problem.unknowns.names, values=fits.find_optima(problem)[0][0].values)
+        check_values(f"slack, direction {direction}", found, {"mu_ub": 0.58, "a_s": 0.022, "slack": 0.7})
+    share = numpy.arange(used.sum()) / (used.sum() - 1)
+    write("minus.csv", {"phi": angle + 0.2, "M": torque + 1.5 + 0.8 * share})  # of the test that goes the other way
+    rig = {"Angle offset": "<<angle: 0 in -1..1>>", "Torque offset": "<<torque: 0 in -5..5>>", "Torque drift": "<<drift: 0 in -5..5>>"}
+    check_values("a minus before units: offsets are those of the file", best({**TWO, "Output/Reference columns": "1 [-deg], 2 [-N mm]"}, "minus.csv", **rig),
+                 {"mu_ub": 0.58, "a_s": 0.022, "angle": 0.2, "torque": 1.5, "drift": 0.8})
+
+
+PULL = """
+subsection Bone
+  set Material = rigid
+  set Cells    = 4, 4, 1
+end
+subsection Implant
+  set Material = rigid
+  set Cells    = 2, 1
+end
+subsection Interface
+  set Law = adhesive
+  subsection Adhesive
+    set Strength        = 3
+    set Gap at strength = 0.02
+  end
+end
+subsection Chuck
+  subsection Translation z
+    set Value = 0.1 * t
+  end
+end
+subsection Load steps
+  set Times = 0, 1
+  set Steps = 60
+end
+"""
+
+
+def check_pulls():
+    """A machine whose spring is in the scene and one whose compliance is in the fit are the same; and what instruments of
+    displacement and force add is found, in either direction of the file."""
+    law = I + "Adhesive/"
+    two = {law + "Strength": "<<t0: 4 in 0.5..20>>", law + "Gap at strength": "<<g0: 0.03 in 0.001..0.2 log>>"}
+    truth = {"t0": 3, "g0": 0.02}
+
+    def found(entries, over="auto", columns="auto"):
+        problem = fits.problem_of(debond.Scene(None, {**two, **entries, "Calibration/Over": over, "Output/Reference curve": "pull.csv",
+                                                      "Output/Reference columns": columns, "Calibration/Starts": 4}, text=PULL))
+        return SimpleNamespace(names=problem.unknowns.names, values=fits.find_optima(problem)[0][0].values)
+
+    spring = {"Chuck/Translation z/Stiffness": 5e4}
+    fine = {"Load steps/Steps": 1000}  # rows are joined by straight lines, which a spring moves
+    rows = debond.Scene(None, {**spring, **fine}, text=PULL).run().rows
+    write("pull.csv", {"machine_uz_mm": rows["machine_uz_mm"], "chuck_Fz_N": rows["chuck_Fz_N"]})
+    check_values("pull over the machine's displacement, its spring in the scene", found({**spring, **fine}, "machine_uz_mm"), truth)
+    check_values("the same, its spring in the fit", found({**fine, "Calibration/Displacement compliance": 1 / 5e4}, columns="1 [mm], 2 [N]"), truth)
+    rows = debond.Scene(text=PULL).run().rows
+    u, F, share = rows["chuck_uz_mm"], rows["chuck_Fz_N"], numpy.arange(61) / 60
+    rig = {"Displacement offset": ("<<u_0: 0 in -0.02..0.02>>", -0.004), "Displacement slack": ("<<slack: 0.001 in 0..0.02>>", 0.003),
+           "Displacement compliance": ("<<c: 1e-5 in 0..1e-4>>", 3e-5), "Force offset": ("<<F_0: 0 in -9..9>>", 2.5),
+           "Force drift": ("<<drift: 0 in -9..9>>", -1.5)}
+    for name, (text, value) in rig.items():
+        for sign in (1, -1):
+            turns = sign if "offset" in name or "drift" in name else 1  # what is seen of a machine that counts the other way
+            more, part = {"Force offset": (0, turns * value), "Force drift": (0, turns * value * share)}.get(name, (turns * value, 0))
+            write("pull.csv", {"u": sign * (u + (more * F if "compliance" in name else more)), "F": sign * (F + part)})
+            check_values(f"{name} of a pull, sign {sign}", found({"Calibration/" + name: text}, columns=f"1 [{'-' * (sign < 0)}mm], 2 [{'-' * (sign < 0)}N]"),
+                         {**truth, text[2:text.index(":")]: value})
+
+
+def check_used_rows():
+    """Fits say how many rows they use, and refuse to go on with few of them; what is too large is asked for its unit."""
+    clean = measured("clean.csv")
+    write("rad.csv", {"phi [rad]": clean["angle_deg"], "M [N mm]": clean["torque_Nmm"]})
+    try:
+        fits.problem_of(scene_of(TWO, "rad.csv"))
+        report("degrees that the file calls radians are refused", False)
+    except debond.SceneError as error:
+        report("degrees that the file calls radians are refused", "only 3 of its 200 rows" in str(error) and "in the unit" in str(error), error)
+    few = fits.problem_of(scene_of(TWO, "rad.csv", **{"Smallest share of rows": 0.01})).done[0].measured
+    report("unless they are told to", few.counts == {"rows": 200, "used": 3, "outside_windows": 0, "at_rest_or_turns": 0, "beyond_scene": 197},
+           few.counts)
+    windows = fits.problem_of(scene_of(TWO, "clean.csv", Windows="0, 1.01")).done[0].measured
+    report("rows outside of windows are none that are missing", windows.counts["outside_windows"] == 180 and windows.counts["used"] == 20,
+           windows.counts)
+    write("deg.csv", {"phi [deg]": clean["angle_deg"] / 57.3, "M [N mm]": clean["torque_Nmm"]})
+    problem = fits.problem_of(scene_of(TWO, "deg.csv"))
+    report("radians that the file calls degrees are asked for", any("is it in deg?" in text for text in problem.done[0].remarks))
+    write("Nm.csv", {"phi [deg]": clean["angle_deg"], "M [N m]": clean["torque_Nmm"] / 10})  # N cm
+    why = why_it_does_not_fit(fit(TWO, "Nm.csv"))
+    report("N cm that the file calls N m are asked for", "N mm in the file" in why and "is its unit right?" in why, why)
+
+
+def check_failure():
+    """A test in which the bond fails, of a scene in which it does not, fits by no measure: what is left of the load is data."""
+    def tail(torque):
+        return numpy.where(numpy.arange(len(torque)) > 60, 1e-3, 1) * torque
+
+    clean = measured("clean.csv")
+    write("failed.csv", {**clean, "torque_Nmm": tail(clean["torque_Nmm"])})
+    for measure in ("e_mp", "e_rel", "least squares"):
+        found = fit(TWO, "failed.csv", Measure=measure, Starts=1)
+        curve = found.curves[0]
+        e_rel = numpy.mean(abs(curve["torque_Nmm_fitted"] - curve["torque_Nmm_measured"])) / abs(curve["torque_Nmm_fitted"]).max()
+        report(f"{measure}: e_rel of a fit is that of all rows", abs(found.e_rel / e_rel - 1) < 1e-9, (found.e_rel, e_rel))
+        report(f"{measure}: a bond that fails in the test alone is not fitted", "no parameters of this scene fit" in why_it_does_not_fit(found))
+        report(f"{measure}: intervals hold the best values", (found.lower <= found.values).all() and (found.values <= found.upper).all(),
+               (found.lower, found.values, found.upper))
 
 
 def correlated(generator, n, rho):
@@ -460,6 +580,10 @@ def main():
         os.chdir(directory)
         check_exact_curves()
         check_uneven_noise()
+        check_signs()
+        check_pulls()
+        check_used_rows()
+        check_failure()
         check_noise()
         check_words()
         check_exact_data()

@@ -46,8 +46,9 @@ namespace Debond
    * that the former covers and whose angles are positive, or negative if the
    * implant turns backwards. Curves that are no torque over an angle are
    * compared along their main_branch(). Rows with less than a hundredth of the
-   * largest measured torque would dominate a relative error and are left out.
-   * NaN if there is none, or if the computed curve does not turn or turns back.
+   * largest measured torque would dominate a relative error: e_mp, and e_mp
+   * alone, leaves them out. What has failed is compared like all else. NaN if
+   * there is no row, or if the computed curve does not turn or turns back.
    */
   struct CurveComparison
   {

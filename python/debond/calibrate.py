@@ -196,6 +196,8 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     log = os.path.join(directory, "evaluations.jsonl")
     if force and os.path.exists(log):
         os.remove(log)
+    for line in dict.fromkeys(warning for experiment in problem.experiments for warning in experiment.scene.warnings):
+        say("warning: " + line)
     for experiment in problem.done:
         say(rows_in_words(experiment.measured))
     say(f"{len(problem.measured)} measured values, {len(problem.unknowns.list)} unknowns")

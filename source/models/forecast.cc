@@ -70,6 +70,10 @@ namespace Debond
         T_max    = 0.;
         for (const TorqueRow &row : solution.rows)
           T_max = std::max(T_max, std::abs(row.torque_Nmm));
+        // points trail by L = mu p / eps_t along arcs, T = 2/3 pi mu p R^3
+        const double L = 1.5 * T_max / (M_PI * std::pow(R, 3)) /
+                         interface.tangential_stiffness();
+        error += 1.5 * std::pow(L / R, 2);
       }
     catch (const EntryError &refusal)
       {

@@ -23,8 +23,9 @@ namespace Debond
     double T_max = none, T_end = none;       ///< [N mm]
     /** Relative, of all of them: half a per cent for mesh and steps, 0.15 of
      * the bodies' share in the compliance, 0.3 of that of the implant squared,
-     * 0.15 on a narrow bone, and 0.03 for a bonded disk, whose rim cuts
-     * elements (test `forecast`). */
+     * 0.15 on a narrow bone, 0.03 for a bonded disk, whose rim cuts elements
+     * (test `forecast`), and (3/2)(L/R)^2 on a soft interface
+     * (doc/explanation/closed_forms.md). */
     double      error = none;
     std::string why; ///< it does not apply; else empty
   };

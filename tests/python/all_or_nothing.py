@@ -92,8 +92,9 @@ def check_moments():
 
 
 def check_angles():
-    """Turns of more than 5 degrees are divided; another component has no value about 1.2445, within the last part."""
-    entries = {"Chuck/Translation x/Value": "0 * log(abs(t - 1.2445) - 0.0005)"}
+    """Turns of more than 5 degrees are divided; another component has no value at 25/32 of the step, within the
+    last part, where steps look between their ends and scenes do not."""
+    entries = {"Chuck/Translation x/Value": "0 * log(abs(t - 1.24453125) - 1e-6)"}
     simulation, plain = (debond.Simulation(debond.Scene(text=coin, entries=entries), drive={"Rotation z": 0}) for _ in range(2))
     for each in (simulation, plain):
         for step in range(12):  # to 1.225

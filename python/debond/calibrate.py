@@ -122,7 +122,7 @@ def _save_failure(problem, directory, why):
         "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(), "seconds": None,
         "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure, "failed": why,
         "measured_values": len(problem.measured), **nothing, **dict.fromkeys(
-            ("rig", "curves", "noise", "taken_as_known", "optima", "cannot_be_told", "warnings", "candidates"), [])},
+            ("rig", "curves", "measured_rows", "noise", "taken_as_known", "optima", "cannot_be_told", "warnings", "candidates"), [])},
         indent=2, ensure_ascii=False) + "\n")
     if problem.values["Output / Report"] == "true":
         write_page_if_possible(directory)

@@ -317,7 +317,7 @@ check_errors()
              "torque_Nmm, angle_deg, remark\r\n"
              "0,0,angle must be positive\r\n"
              "20,1,ours is 25\r\n"
-             "0.4,1.5,ours is 37.5: at most 1 %, which e_mp leaves out\r\n"
+             "0.4,1.5,ours is 37.5 where e_mp leaves out what is small\r\n"
              "50,4,ours is 40\r\n"
              "30,10.0000000000001,ours is 30\r\n"
              "30,11,beyond\r\n");

@@ -99,10 +99,23 @@ def study_with_curves(scene, *changes):
             for row in study(scene, *changes)]
 
 
+@functools.lru_cache(None)
+def fit(scene, *changes):
+    """What calibration.json says."""
+    directory = directory_of(scene, changes)
+    debond(scene, directory, *changes)
+    with open(directory + '/calibration.json', encoding='utf-8') as text:
+        return json.load(text)
+
+
+def console(*words):
+    """What debond prints."""
+    return subprocess.run([options.debond, *words], stdout=subprocess.PIPE, text=True, check=True).stdout
+
+
 def check(scene, *changes):
     """What debond --check prints."""
-    return subprocess.run([options.debond, scene, '--check'] + [word for change in changes for word in ('--set', change)],
-                          stdout=subprocess.PIPE, text=True, check=True).stdout
+    return console(scene, '--check', *(word for change in changes for word in ('--set', change)))
 
 
 def directory_of(scene, changes):
@@ -622,10 +635,7 @@ def calibration_fits():
         e_mp = run('prm/paper/data_set_%d_calibrated.prm' % data_set, 'Output/Reference curve=%s' % STAND_IN % data_set)['e_mp']
         rows = [('calibrated scene', dict(zip(names, scene)), e_mp)]
         for what, changes in (('four numbers', ('Interface/Transition factor=%g' % scene[4],)), ('five numbers', ())):
-            path = 'prm/calibrate/data_set_%d.prm' % data_set
-            debond(path, directory_of(path, changes), *changes)
-            with open(directory_of(path, changes) + '/calibration.json', encoding='utf-8') as text:
-                result = json.load(text)
+            result = fit('prm/calibrate/data_set_%d.prm' % data_set, *changes)
             found = {name: unknown['value'] for name, unknown in result['unknowns'].items()}
             rows.append((what, {'b_s': scene[4], **found}, result['curves'][0]['e_mp']))
         lines += [[data_set, what, '%.0f, %.0f' % (of['eps_n'], of['eps_t']), '%.3f' % of['mu_ub'], '%.1f' % (1000 * of['a_s']),
@@ -972,6 +982,147 @@ def ensemble_correlation():
 
 
 # Pages
+
+
+def printed(text, begin, end=None):
+    """The lines of a console from one that begins so to one that does, as a block."""
+    text = text[text.index('\n' + begin):]
+    return '\n```%s\n```\n' % (text[:text.index('\n', text.index('\n' + end) + 1)] if end else text.rstrip())
+
+
+@numbers('seconds')
+def first_run():
+    scene = 'prm/paper/data_set_1_calibrated.prm'
+    return printed(console(scene, '--force', '--set', 'Output/Directory=' + directory_of(scene, ())), 'Largest torque', 'The bond begins')
+
+
+TUTORIAL, TUTORIAL_FIT, MEASURED = 'prm/tutorial/implant.prm', 'prm/tutorial/fit.prm', 'prm/tutorial/measured.csv'
+
+
+@numbers('seconds')
+def tutorial_check():
+    return printed(check(TUTORIAL), 'Closed forms predict')
+
+
+@numbers('seconds')
+def tutorial_torques():
+    return '%.1f N mm and %.1f N mm' % tuple(run(TUTORIAL)[name + '_Nmm'] for name in ('T_max', 'T_inf'))
+
+
+@numbers('minutes')
+def which_entry():
+    """Changes that are no more than 0.3 % are 0."""
+    first, *rows = study_with_curves('prm/tutorial/which_entry.prm')
+    columns = ('initial_stiffness_Nmm_per_rad', 'T_max_Nmm', 'plateau_end', 'T_inf_Nmm')
+    names = {'Chuck / Press / Value': 'axial force', 'Bone / Young modulus': 'Young modulus of the bone', 'Interface / Tangential stiffness':
+             'tangential stiffness $\\epsilon_t$', 'Interface / Friction coefficient broken': '$\\mu_b$', 'Interface / Friction coefficient unbroken':
+             '$\\mu_{ub}$', 'Interface / Characteristic slip distance': '$a_s$', 'Interface / Transition factor': '$b_s$'}
+    lines = []
+    for entry, name in names.items():
+        row = next(row for row in rows if row[entry] != first[entry])
+        changes = [{**row, 'plateau_end': plateau_end(row)}[column] / {**first, 'plateau_end': plateau_end(first)}[column] - 1 for column in columns]
+        lines.append([name] + ['%+.*f %%' % (abs(change) < .005, 100 * change) if abs(change) > .003 else '0' for change in changes])
+    return table(['a tenth more of', 'slope', '$T_{max}$', 'end of the peak', '$T_\\infty$'], lines)
+
+
+HALF = 'Implant/Cells=20, 4', 'Interface/Quadrature points=3'
+
+
+def half_bonded(pattern):
+    return run(TUTORIAL, *HALF, 'Interface/Bonding/' + ('Expression=x > 0' if pattern == 'expression' else 'Bonded fraction=0.5'),
+               'Interface/Bonding/Pattern=' + pattern)
+
+
+@numbers('seconds')
+def half_of_the_face():
+    return 'from %.1f to %.1f N mm' % (run(TUTORIAL)['T_max_Nmm'], half_bonded('expression')['T_max_Nmm'])
+
+
+@numbers('seconds')
+def half_of_the_face_lateral():
+    return '%.1f N along y' % max(abs(row['chuck_Fy_N']) for row in half_bonded('expression')['curve'])
+
+
+@numbers('seconds')
+def half_disk():
+    return '%.1f N mm' % half_bonded('disk')['T_max_Nmm']
+
+
+@numbers('seconds')
+def half_annulus():
+    return '%.1f N mm' % half_bonded('annulus')['T_max_Nmm']
+
+
+@numbers('seconds')
+def tutorial_compare():
+    directory = 'output/tutorial/implant'
+    debond(TUTORIAL, directory)
+    return printed('\n' + console('--compare', directory, MEASURED), MEASURED)
+
+
+def with_interval(unknown, text='%s (%s to %s)'):
+    return text % tuple(('%#.3g' % unknown[name]).rstrip('.') for name in ('value', 'lower_95', 'upper_95'))
+
+
+@numbers('minutes')
+def tutorial_fit():
+    true = {'eps_t': 350, 'mu_b': .34, 'mu_ub': .56, 'a_s': .045, 'b_s': 1.2, 'angle_offset': .06}  # make_measured.py
+    units = {'eps_t': ' [MPa/mm]', 'a_s': ' [mm]', 'angle_offset': ' [deg]'}
+    return table(['unknown', 'best fit', '95 % interval', 'true'],
+                 [['`%s`%s' % (name, units.get(name, ''))] + with_interval(unknown, '%s|%s to %s').split('|') + ['%g' % true[name]]
+                  for name, unknown in fit(TUTORIAL_FIT)['unknowns'].items()])
+
+
+@numbers('minutes')
+def tutorial_correlation():
+    result = fit(TUTORIAL_FIT)
+    assert any('a_s and b_s have a correlation of' in text for text in result['warnings'])
+    return '%.3f' % result['correlations']['a_s | b_s']
+
+
+@numbers('minutes')
+def tutorial_fitted():
+    fit(TUTORIAL_FIT)
+    return '%.1f N mm' % run(directory_of(TUTORIAL_FIT, ()) + '/fitted.prm')['T_max_Nmm']
+
+
+@numbers('minutes')
+def tutorial_poor():
+    result = fit(TUTORIAL_FIT, 'Calibration/Angle offset=0')
+    assert any('the model does not fit torque_Nmm' in text for text in result['warnings'])
+    return with_interval(result['unknowns']['eps_t'])
+
+
+@numbers('minutes')
+def tutorial_rigid_machine():
+    result = fit(TUTORIAL_FIT, 'Calibration/Machine compliance=0')
+    assert not any('does not fit' in text for text in result['warnings'])
+    return with_interval(result['unknowns']['eps_t'])
+
+
+def changed_fit(*changes):
+    """By how many per cent each unknown of the tutorial's fit changes."""
+    return {name: '%.2g %%' % abs(100 * (unknown['value'] / fit(TUTORIAL_FIT)['unknowns'][name]['value'] - 1))
+            for name, unknown in fit(TUTORIAL_FIT, *changes)['unknowns'].items()}
+
+
+@numbers('minutes')
+def tutorial_wide_steps():
+    change = changed_fit('Load steps/Tolerance=3e-4')
+    return '`a_s` of this fit would be %s too large and `b_s` %s too small' % (change['a_s'], change['b_s'])
+
+
+@numbers('minutes')
+def tutorial_no_machine():
+    change = changed_fit('Calibration/Machine compliance=0', 'Calibration/Torque offset=0')
+    return '`mu_b` is %s and `eps_t` %s off' % (change['mu_b'], change['eps_t'])
+
+
+@numbers('minutes')
+def mean_force():
+    """The scene says what these changes are for."""
+    return with_interval(fit('prm/calibrate/axial_force.prm', 'Chuck/Press/File=none', 'Chuck/Press/File columns=auto',
+                             'Chuck/Press/Value=25.4 * min(t, 1)')['unknowns']['mu_ub'])
 
 
 @numbers('seconds')

@@ -144,6 +144,18 @@ for name in ("bone, smooth", "implant, smooth"):
     surface.UpdatePipeline(4.)
     expect(name, surface.PointData["Normals"] is not None and surface.GetDataInformation().GetNumberOfCells() > 0, True)
 
+# the expressions of doc/howto/paraview.md sum points up to what the program says
+with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../doc/howto/paraview.md"), encoding="utf-8") as file:
+    expressions = [line.strip().replace("%.6g", "%.9g") for line in file if line.startswith('"')]
+points = simple.PVDReader(FileName=os.path.join(results, "points.pvd"))
+annotation = simple.PythonAnnotation(Input=points, ArrayAssociation="Point Data")
+sums = []
+for row in rows:
+    for annotation.Expression in expressions:
+        annotation.UpdatePipeline(float(row["time"]))
+        sums.append(float(servermanager.Fetch(annotation).GetRowData().GetAbstractArray(0).GetValue(0).split(" N")[0].split()[-1]))
+expect("sums of points", sums, [float(row[name]) for row in rows for name in ("torque_Nmm", "chuck_Fx_N")], 1e-6 * float(rows[1]["torque_Nmm"]))
+
 layout = list(simple.GetLayouts().values())[0]
 layout.SetSize(1920, 1080)
 simple.GetAnimationScene().AnimationTime = 4.

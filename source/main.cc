@@ -1,7 +1,6 @@
 #include <debond/campaigns/run_scene.h>
 #include <debond/campaigns/study.h>
 #include <debond/input/input_file.h>
-#include <debond/input/old_names.h>
 #include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/resumed_run.h>
@@ -65,7 +64,6 @@ namespace
        debond --resume DIR [OPTIONS] [SCENE.prm]
        debond --compare DIR CURVE [--columns LIST]
        debond --report DIR
-       debond --convert OLD.prm
 
 Simulates how an implant comes off bone, as the scene file describes it, and
 writes curves, summary and fields into the directory that the scene names. A
@@ -87,7 +85,6 @@ among N processes.
                       Reference columns: "2 [deg], 3 [N m]"; with
                       "3 [-N m]" torques of the other sign
   --report DIR        write report.html of the results in DIR anew; nothing is run
-  --convert OLD.prm   print a scene of version 1 with the names of version 2
   --jobs N            run N variants of a study at a time (default: as many as
                       there are processors)
   --threads N         use N threads (default: as many as there are processors, in
@@ -124,7 +121,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     std::string directory_to_resume;  ///< empty: a run begins anew
     std::string directory_to_compare; ///< with the curve in scene_file
     std::string directory_to_report;
-    std::string scene_to_convert;
     std::string columns;                ///< of that curve; empty: recognised
     std::vector<std::string> overrides; ///< "Subsection/Entry=value", in order
     bool force = false, check = false, print_parameters = false, help = false,
@@ -179,17 +175,15 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       refuse_usage("--compare goes with a curve and --columns only");
     if (compares && arguments.scene_file.empty())
       refuse_usage("--compare needs a measured curve: --compare DIR CURVE.csv");
-    const bool reports  = !arguments.directory_to_report.empty(),
-               converts = !arguments.scene_to_convert.empty();
-    if ((reports || converts) && n_words != 2)
-      refuse_usage(std::string(reports ? "--report" : "--convert") +
-                   " goes with nothing else");
+    const bool reports = !arguments.directory_to_report.empty();
+    if (reports && n_words != 2)
+      refuse_usage("--report goes with nothing else");
     if (!compares && !arguments.columns.empty())
       refuse_usage("--columns is for --compare; a scene has Output / Reference "
                    "columns");
     // With --print-parameters alone the defaults are printed.
     const bool needs_no_scene =
-      resumes || reports || converts || arguments.help || arguments.version ||
+      resumes || reports || arguments.help || arguments.version ||
       (arguments.print_parameters && arguments.overrides.empty());
     if (arguments.scene_file.empty() && !needs_no_scene)
       refuse_usage("no scene file is given");
@@ -245,8 +239,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           arguments.directory_to_compare = value("a directory of results");
         else if (option == "--report")
           arguments.directory_to_report = value("a directory of results");
-        else if (option == "--convert")
-          arguments.scene_to_convert = value("a scene file");
         else if (option == "--columns")
           arguments.columns = value("two columns, the angle and the torque");
         else if (option.size() > 1 && option[0] == '-')
@@ -460,11 +452,6 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                           "--columns=" + arguments.columns});
     if (!arguments.directory_to_report.empty())
       Laboratory::become("page", {arguments.directory_to_report});
-    if (!arguments.scene_to_convert.empty())
-      {
-        std::cout << converted_scene(arguments.scene_to_convert);
-        return;
-      }
     if (arguments.scene_file.empty())
       return print_parameters(std::cout);
 

@@ -1,5 +1,4 @@
 #include <debond/input/entry_table.h>
-#include <debond/input/old_names.h>
 #include <debond/support/number_text.h>
 
 #include <boost/algorithm/string/compare.hpp>
@@ -51,14 +50,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    const char *const convert_hint =
-      " (debond --convert OLD.prm prints a scene with the new names)";
-  }
-
-
-
   void
   EntryTable::set(const SceneEntry &entry)
   {
@@ -67,10 +58,6 @@ namespace Debond
     });
     if (row == rows.end())
       {
-        const std::string renamed = new_name_of(entry.full_name());
-        if (!renamed.empty())
-          entry.refuse("since version 2.0 it is called " + renamed +
-                       convert_hint);
         const std::string special =
           remark_on_special_character(entry.full_name());
         const std::string likely = likely_name(entry);
@@ -86,10 +73,6 @@ namespace Debond
     if (entry.value.find("{{") != std::string::npos)
       entry.refuse("several values make a study: expected one value here");
     const std::string refusal = row->allowed.refusal(entry.value);
-    const std::string renamed = new_value_of(entry.full_name(), entry.value);
-    if (!refusal.empty() && renamed != entry.value)
-      entry.refuse(refusal + "; since version 2.0 it is written " + renamed +
-                   convert_hint);
     if (!refusal.empty())
       entry.refuse(refusal + (entry.value.find('{') == std::string::npos ?
                                 "" :

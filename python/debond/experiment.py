@@ -119,8 +119,8 @@ class Experiment:
         """Ends of steps half as wide as these, which adaptive ones have chosen, or as those planned."""
         start = self.scene.sample_times[0]
         if not steps:
-            phases = [float(time) for time in self.values["Load steps / Times"].split(",")]
-            steps = [[time for time in self.scene.sample_times if begin < time <= end] for begin, end in zip(phases, phases[1:])]
+            times, numbers = ([float(item) for item in self.values["Load steps / " + name].split(",")] for name in ("Times", "Steps"))
+            steps = [numpy.linspace(begin, end, int(n) + 1)[1:] for begin, end, n in zip(times, times[1:], numbers)]
         starts = [start, *(ends[-1] for ends in steps[:-1])]
         return [numpy.unique(numpy.r_[ends, (numpy.array([begin, *ends[:-1]]) + ends) / 2]).tolist() for begin, ends in zip(starts, steps)]
 
@@ -245,11 +245,13 @@ class Experiment:
         if len(measured.branch) and branch[-1] < measured.branch[-1]:
             raise RunError(f"{measured.file} turns back {measured.branch[-1]} times, the computed curve {branch[-1]} times")
         result = numpy.empty((len(self.columns), len(measured.over)))
+        self.n_beyond, self.ends_at = 0, x[-1]
         for b in numpy.unique(measured.branch):
             at = measured.branch == b
             first, last = numpy.searchsorted(branch, b), numpy.searchsorted(branch, b, side="right") - 1
             first -= first > 0  # the row at the turn
             begin, end, share = _neighbours(x[first:last + 1], measured.over[at])
+            self.n_beyond += int((share > 1 + 1e-6).sum())
             for c, curve in enumerate(curves):
                 y = curve[first:last + 1]
                 result[c, at] = (1 - share) * y[begin] + share * y[end]

@@ -319,6 +319,11 @@ class Fit:
             self.warnings.append(f"steps of the load are too wide for this fit: with half of them {names[j]} changes by {abs(shift[j]):.2g} half "
                                  "widths of its interval; give more Load steps / Steps, or a smaller Tolerance")
         for experiment in problem.done:
+            n, over = experiment.n_beyond, experiment.over
+            if n > 0 and not experiment.measured.is_prescribed:
+                self.warnings.append(f"{n} of {len(experiment.measured.over)} rows of {experiment.measured.file} are beyond {experiment.ends_at:.4g} "
+                                     f"{over.unit}, where the load of the scene is reached, and are compared with a straight line from there: "
+                                     "give the load of the test, or leave them out with Calibration / Windows")
             said = (experiment.warnings(problem.unknowns.starts), experiment.warnings(self.values))
             self.warnings += [f"with the values that were found {text}" for text in said[1] if text not in said[0]]
 

@@ -88,6 +88,7 @@ class Measurement:
     signs: list = field(default_factory=list)  # of `over` and the curves: -1 where Reference columns have a minus
     counts: dict = field(default_factory=dict)  # rows of the file: all, used, and why others are not
     remarks: list = field(default_factory=list)  # what may be wrong with the file
+    is_prescribed: bool = True  # by the scene, which so says how far it comes
 
 
 def rows_in_words(measured):
@@ -228,7 +229,7 @@ def read(scene, values, columns, over, largest_shift=0.0, compliance=0.0):
     return Measurement(file, table[used, 0], table[used, 1:], branch[used], least_turn, scale,
                        _stated_noise(scene, values, columns, used, scale), [slice(a, b) for a, b in zip(edges, edges[1:])],
                        used / max(1, len(table) - 1), [-1 if measured.is_turned(item) else 1 for item in (choice or "," * len(columns)).split(",")],
-                       counts, _remarks(file, over, table[:, 0], planned))
+                       counts, _remarks(file, over, table[:, 0], planned), planned is not None)
 
 
 def _read(scene, file, names, columns, columns_entry="Output / Reference columns"):

@@ -229,6 +229,19 @@ def check_used_rows():
     report("N cm that the file calls N m are asked for", "N mm in the file" in why and "is its unit right?" in why, why)
 
 
+def check_held_load():
+    """A load that the scene holds may bring it less far than the test came: rows beyond are said."""
+    held = PULL.replace("set Value = 0.1 * t", "set Control = force\n    set Value   = 20 * t")
+    rows = debond.Scene(text=held).run().rows
+    write("pull.csv", {"u": rows["chuck_uz_mm"], "F": rows["chuck_Fz_N"]})
+    for load, n in ((20, 0), (10.1, 30)):
+        found = debond.fit(debond.Scene(None, {I + "Adhesive/Gap at strength": "<<g0: 0.03 in 0.001..0.2 log>>", "Calibration/Starts": 1,
+                                               "Chuck/Translation z/Value": f"{load} * t", "Output/Reference curve": "pull.csv",
+                                               "Output/Reference columns": "1 [mm], 2 [N]"}, text=held))
+        said = [text for text in found.warnings if "the load of the scene is reached" in text]
+        report(f"rows beyond a load of {load} N are said", len(said) == (n > 0) and all(text.startswith(f"{n} of 61 rows") for text in said), found.warnings)
+
+
 def check_failure():
     """A test in which the bond fails, of a scene in which it does not, fits by no measure: what is left of the load is data."""
     def tail(torque):
@@ -444,6 +457,8 @@ end
     write("wide.csv", {"angle_deg": rows["angle_deg"][turned], "torque_Nmm": rows["torque_Nmm"][turned]})
     entries = {**TRUTH, I + "Friction coefficient unbroken": TWO[I + "Friction coefficient unbroken"], "Output/Reference curve": "wide.csv", "Calibration/Starts": 1}
     found = debond.fit(debond.Scene(None, entries, text=scene))
+    halves = fits.problem_of(debond.Scene(None, entries, text=scene)).done[0].halved(())
+    report("steps half as wide are twice as many", [len(ends) for ends in halves] == [2, 50], halves)
     report("steps as wide as an interval are told", any("steps of the load are too wide" in text for text in found.warnings), found.warnings)
     again = debond.fit(debond.Scene(None, entries, text=scene))
     report("the same fit once more gives the same digits", (again.values == found.values).all() and (again.lower == found.lower).all(), again.values - found.values)
@@ -583,6 +598,7 @@ def main():
         check_signs()
         check_pulls()
         check_used_rows()
+        check_held_load()
         check_failure()
         check_noise()
         check_words()

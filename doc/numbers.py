@@ -627,7 +627,7 @@ def table_4():
 
 @numbers('minutes')
 def calibration_fits():
-    """The calibrated scenes beside fits of four numbers, with b_s as printed, and of five."""
+    """The calibrated scenes beside fits of four numbers, with b_s as printed, and of five, of which a_s and b_s stand in for each other."""
     names = ('eps_n', 'eps_t', 'mu_ub', 'a_s', 'b_s')
     scenes = {1: (622, 305, .586, .042, .74), 2: (710, 403, .546, .052, 1.86)}
     lines = []
@@ -638,8 +638,8 @@ def calibration_fits():
             result = fit('prm/calibrate/data_set_%d.prm' % data_set, *changes)
             found = {name: unknown['value'] for name, unknown in result['unknowns'].items()}
             rows.append((what, {'b_s': scene[4], **found}, result['curves'][0]['e_mp']))
-        lines += [[data_set, what, '%.0f, %.0f' % (of['eps_n'], of['eps_t']), '%.3f' % of['mu_ub'], '%.1f' % (1000 * of['a_s']),
-                   '%.2f' % of['b_s'], '%.2f' % (100 * e_mp)] for what, of, e_mp in rows]
+        lines += [[data_set, what, '%.0f, %.0f' % (of['eps_n'], of['eps_t']), '%.3f' % of['mu_ub'], '%.*f' % (what[:4] != 'five', 1000 * of['a_s']),
+                   '%.*f' % (1 + (what[:4] != 'five'), of['b_s']), '%.2f' % (100 * e_mp)] for what, of, e_mp in rows]
     return table(['set', 'what', 'eps_n, eps_t [MPa/mm]', 'mu_ub', 'a_s [um]', 'b_s', 'e_mp [%]'], lines)
 
 
@@ -1011,7 +1011,7 @@ def tutorial_torques():
 
 @numbers('minutes')
 def which_entry():
-    """Changes that are no more than 0.3 % are 0."""
+    """Changes of no more than 0.3 % are 0; bold: what an entry of the interface is for."""
     first, *rows = study_with_curves('prm/tutorial/which_entry.prm')
     columns = ('initial_stiffness_Nmm_per_rad', 'T_max_Nmm', 'plateau_end', 'T_inf_Nmm')
     names = {'Chuck / Press / Value': 'axial force', 'Bone / Young modulus': 'Young modulus of the bone', 'Interface / Tangential stiffness':
@@ -1021,7 +1021,9 @@ def which_entry():
     for entry, name in names.items():
         row = next(row for row in rows if row[entry] != first[entry])
         changes = [{**row, 'plateau_end': plateau_end(row)}[column] / {**first, 'plateau_end': plateau_end(first)}[column] - 1 for column in columns]
-        lines.append([name] + ['%+.*f %%' % (abs(change) < .005, 100 * change) if abs(change) > .003 else '0' for change in changes])
+        bold = '**' if entry.startswith('Interface') else ''
+        lines.append([name] + [('%s%+.*f %%%s' % (bold * (abs(change) > .05), abs(change) < .005, 100 * change, bold * (abs(change) > .05)))
+                               if abs(change) > .003 else '0' for change in changes])
     return table(['a tenth more of', 'slope', '$T_{max}$', 'end of the peak', '$T_\\infty$'], lines)
 
 
@@ -1102,7 +1104,7 @@ def tutorial_rigid_machine():
 
 def changed_fit(*changes):
     """By how many per cent each unknown of the tutorial's fit changes."""
-    return {name: '%.2g %%' % abs(100 * (unknown['value'] / fit(TUTORIAL_FIT)['unknowns'][name]['value'] - 1))
+    return {name: '%g %%' % float('%.1g' % abs(100 * (unknown['value'] / fit(TUTORIAL_FIT)['unknowns'][name]['value'] - 1)))
             for name, unknown in fit(TUTORIAL_FIT, *changes)['unknowns'].items()}
 
 

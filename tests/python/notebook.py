@@ -1,9 +1,10 @@
 """Executes a notebook and checks the numbers that its last cell prints. Usage: notebook.py ROOT NOTEBOOK [--store],
 where `import debond` finds the module. The working directory of the notebook is ROOT, its kernel is the Python that
-runs this file. --store writes the notebook back with its outputs."""
+runs this file. --store writes the notebook back with its outputs; without it those that are there must still say the same."""
 
 import json
 import os
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -32,6 +33,14 @@ def check(what, is_so, *numbers):
     global failures
     failures += not is_so
     print(f"{what}: {'yes' if is_so else 'NO'}", *numbers, flush=True)
+
+
+def printed(notebook):
+    """What all cells but the last print: words, and numbers."""
+    code = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    text = "".join(output.text for cell in code[:-1] for output in cell.outputs if output.get("name") == "stdout")
+    number = re.compile(r"-?\d+\.?\d*(?:e[-+]?\d+)?")
+    return number.sub("#", text).split(), [float(each) for each in number.findall(text)]
 
 
 def check_numbers(numbers):
@@ -74,6 +83,7 @@ def check_numbers(numbers):
 def main():
     root, name = sys.argv[1:3]
     notebook = nbformat.read(name, as_version=4)
+    stored_words, stored_numbers = printed(notebook)
     client = nbclient.NotebookClient(notebook, timeout=600, startup_timeout=300, kernel_name="debond-test",
                                      record_timing=False, resources={"metadata": {"path": root}})
     try:
@@ -84,13 +94,17 @@ def main():
         sys.exit(1)
     check("all cells run", True)
     code = [cell for cell in notebook.cells if cell.cell_type == "code"]
-    printed = "".join(output.text for output in code[-1].outputs if output.get("name") == "stdout")
+    text = "".join(output.text for output in code[-1].outputs if output.get("name") == "stdout")
     check("nothing on stderr", not any(output.get("name") == "stderr" for cell in code for output in cell.outputs),
           *[output.text for cell in code for output in cell.outputs if output.get("name") == "stderr"])
     pictures = sum("image/png" in output.get("data", {}) for cell in code for output in cell.outputs)
     check("a picture of each part", pictures == 7, pictures)
-    check_numbers(json.loads(printed))
-    if "--store" in sys.argv[3:]:
+    check_numbers(json.loads(text))
+    words, values = printed(notebook)
+    if "--store" not in sys.argv[3:]:
+        check("the stored output is today's; else --store", words == stored_words and all(
+            abs(value - stored) <= 0.05 * abs(stored) for value, stored in zip(values, stored_numbers)), values, stored_numbers)
+    else:
         notebook.metadata = {"kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
                              "language_info": {"name": "python"}}
         nbformat.write(notebook, name)

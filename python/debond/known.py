@@ -18,6 +18,7 @@ _FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Outer radius", "Inte
             "Closed form / Torsional stiffness", "Chuck / Rotation z / Stiffness", "Chuck / Translation z / Stiffness",
             "Chuck / Press / Value", "Chuck / Translation z / Value"]
 _SHARES = ("Bonding degree", "Bonded fraction")  # at most 1
+_JUMP = 0.05  # of the largest value, which 1 % of a number changes where a jump moves
 
 
 def _unit_of(entry, values):
@@ -89,8 +90,7 @@ def _change_of_curve(fit, entry, text):
 
 
 def _slopes(fit, free):
-    """Of the curve by the unknowns `free`, over the weights, along changes of 1 % as those of the table: where a curve jumps, a change
-    moves the jump, and only an equal one of another number makes up for it."""
+    """Of the curve by the unknowns `free`, over the weights, along changes of 1 % as those of the table."""
     problem = fit.problem
     try:
         return problem.weights[:, None] * problem.derivatives(fit.values, not problem.why_no_closed_form, free, 1e-2)
@@ -98,17 +98,40 @@ def _slopes(fit, free):
         return fit.told.derivatives[:, free]
 
 
+def _uncertainties(J):
+    return numpy.linalg.norm(numpy.linalg.pinv(J), axis=1)
+
+
+def _compensation(J, change, robust):
+    """What of the unknowns makes up for a change of the curve (both over the weights), by least squares; robust: rows that stay off
+    by far more than most count by their sign, as those beside a jump."""
+    weights = numpy.ones(len(change))
+    for _ in range(30 if robust else 1):
+        moved = numpy.linalg.lstsq(weights[:, None] * J, -weights * change, rcond=1e-7)[0]
+        rest = abs(J @ moved + change)
+        weights = numpy.sqrt(numpy.minimum(1, 4 * numpy.median(rest) / numpy.maximum(rest, 1e-300)))
+    return moved
+
+
 def table_of(fit):
-    """A list of {"entry", "value", "unit", "change", "effect": {unknown: by how many % of itself}}."""
+    """A list of {"entry", "value", "unit", "change", "effect": {unknown: by how many % of itself}}. Rows over which 1 % of a number moves
+    a jump of the curve are left out, and so are effects on what hardly any other rows tell."""
     problem, told = fit.problem, fit.told
     usable = told.free & numpy.isfinite(told.half_widths)
-    J, table = _slopes(fit, numpy.flatnonzero(usable)), []
+    free = numpy.flatnonzero(usable)
+    J, table = _slopes(fit, free), []
+    largest = numpy.concatenate([numpy.full(series.slice.stop - series.slice.start, abs(fit._best.curve[series.slice]).max()) for series in problem.series])
+    percent = 0.01 * numpy.array([1 if problem.unknowns.list[j].logarithmic else abs(fit.values[j]) for j in free])
+    steady = (abs(J) * percent <= _JUMP * (problem.weights * largest)[:, None]).all(axis=1)
+    if not steady.all():
+        usable[free] = _uncertainties(J[steady]) < 10 * _uncertainties(J)
     for entry, value, unit, change, text in _changes(fit):
         change_of_curve = _change_of_curve(fit, entry, text)
         if change_of_curve is None:
             continue
+        rows = steady & (abs(change_of_curve) <= _JUMP * largest)
         moved = numpy.zeros(len(fit.values))
-        moved[usable] = numpy.linalg.lstsq(J, -problem.weights * change_of_curve, rcond=1e-7)[0]
+        moved[free] = _compensation(J[rows], (problem.weights * change_of_curve)[rows], not rows.all())
         at = problem.unknowns.to_search(fit.values)
         other = problem.unknowns.values_of(at + moved)
         with numpy.errstate(over="ignore"):

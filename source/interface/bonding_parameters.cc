@@ -35,8 +35,9 @@ namespace Debond
       Allowed::choice(pattern_names),
       "Where the contact face of the implant is bonded at the start (phi_0, "
       "in reference coordinates). `homogeneous': everywhere. `disk': inside "
-      "the concentric disk that has Bonded fraction of the area of a coin or "
-      "cap. `annulus': outside a concentric disk, with that fraction. "
+      "the concentric disk that has Bonded fraction of the area of a coin, "
+      "cap, ring, cup or file. `annulus': outside a concentric disk, with that "
+      "fraction. "
       "`random': as many elements, drawn by Seed, as make up Bonded "
       "fraction. `expression': see Expression. `image', `file': see File.");
     table.add("Bonding degree",

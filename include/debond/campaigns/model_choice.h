@@ -76,9 +76,8 @@ namespace Debond
 
   /** Largest |T - T_reference| relative to the largest |T_reference|: the
    *  `difference_max` of summary.json, at the rows of both curves. Only angles
-   *  that both have and that are beyond zero in the sense of the rotation, and
-   *  only rows with more than 1 % of their curve's largest torque. NaN if no
-   *  such row is left or if one of the curves turns back. */
+   *  that both have and that are beyond zero in the sense of the rotation. NaN
+   *  if no such row is left or if one of the curves turns back. */
   double
   largest_difference(const std::vector<TorqueRow> &rows,
                      const std::vector<TorqueRow> &reference);

@@ -51,9 +51,13 @@ FITS = {"torque": (RIGID + TWISTED, "auto", "auto"), "torque and force": (RIGID 
         "foundation": (BROAD_RUNS["foundation"], "auto", "auto")}
 # What these scenes do not come to: nothing opens while it is pressed, and what is pulled straight off slides nowhere and stays on
 # its axis.
-STATE = {"coin": "Interface / Opening breaks bond|Output / Friction energy",
-         "pulled": "Output / Friction energy|Chuck / (Translation [xy]|Rotation z) / (Control|Stiffness)"
-                   "|Interface / (Characteristic|Friction coefficient|Transition)"}
+OPENS = "Interface / Opening breaks bond|Output / Friction energy"
+SLIDES_NOWHERE = "Output / Friction energy|Interface / (Characteristic|Friction coefficient|Transition)"
+STATE = {"coin": OPENS, "linear coin": OPENS + "|(Bone|Implant) / Layer grading",  # a layer of cells
+         "foundation": OPENS + "|Interface / Bonding / Pattern", "crack": OPENS, "prescribed angles": OPENS,  # a disk is the whole face
+         "pin": OPENS + "|Chuck / (Press|Translation z) / (Control|Stiffness)",  # nothing pushes along the axis
+         "pulled": SLIDES_NOWHERE + "|Chuck / (Translation [xy]|Rotation z) / (Control|Stiffness)",
+         "pulled by a soft machine": SLIDES_NOWHERE}
 failures = []
 
 
@@ -66,7 +70,7 @@ def allowed_values(source):
 def candidates(allowed, value):
     """Other values to try in turn."""
     if "expression in t" in allowed:
-        return [f"({value}) * 1.1", f"({value}) + 1e-4 * t"]
+        return [f"({value}) * 1.1"] * (value != "0") + [f"({value}) + 1e-4 * t"]
     result = [choice for choice in re.findall("`([^`]*)`", allowed) if choice != value] if "`" in allowed else []
     numbers = re.findall(r"[-+0-9.e]+", value) if re.fullmatch(r"[-+0-9.e, ]+", value) else []
     whole = "whole number" in allowed

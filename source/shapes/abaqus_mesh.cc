@@ -136,11 +136,15 @@ namespace Debond
       void
       begin_elements()
       {
-        const std::string type = upper("TYPE");
-        is_solid               = boost::starts_with(type, "C3D");
+        const std::string type   = upper("TYPE");
+        const auto        begins = [&](const char *with) {
+          return boost::starts_with(type, with);
+        };
+        // what Gmsh writes of named lines and faces, or has no stiffness
+        resists = !begins("T3D") && !begins("CPS") && !begins("SFM3D");
         const auto end =
           std::min(type.find_first_not_of("0123456789", 3), type.size());
-        const std::string n = is_solid ? type.substr(3, end - 3) : "";
+        const std::string n = begins("C3D") ? type.substr(3, end - 3) : "";
         nodes_of_element    = n == "8" ? 8 : n == "20" ? 20 : 0;
       }
 
@@ -150,7 +154,7 @@ namespace Debond
         const auto items = items_of(line);
         if (section == "*NODE")
           read_node(items);
-        else if (section == "*ELEMENT" && is_solid)
+        else if (section == "*ELEMENT" && resists)
           read_element(items);
         else if (section == "*ELSET")
           read_set(items);
@@ -331,7 +335,7 @@ namespace Debond
       std::string                               keyword; ///< its line
       std::string                               section;
       std::map<std::string, std::string>        parameters; ///< of it
-      bool                                      is_solid         = false;
+      bool                                      resists          = false;
       unsigned int                              nodes_of_element = 0;
       std::vector<long>                         unfinished;
       std::unordered_map<long, unsigned int>    node_number, element_number;

@@ -44,8 +44,9 @@ namespace Debond
         for (const auto &[kind, n] : stored.other_solids)
           others +=
             (others.empty() ? "" : ", ") + std::to_string(n) + " " + kind;
-        refuse("it has solids that are no hexahedra with 8, 20 or 27 nodes (" +
-               others + "): expected hexahedra only");
+        refuse("it has other elements than solid hexahedra with 8, 20 or 27 "
+               "nodes (" +
+               others + "): expected these only");
       }
     if (stored.hexahedra.empty())
       refuse("it has no hexahedra");

@@ -530,6 +530,11 @@ main()
                       "*Step",
                       "*Solid section, elset=all,\nmaterial=bone\n1.,\n*Step");
   written = in_abaqus(written, "*Static", "*Static\n*Cload\n1, 1, 1.");
+  for (const std::string type : {"T3D2", "CPS4", "SFM3D4R"}) // of named faces
+    written = in_abaqus(written,
+                        "*Element, type=C3D8",
+                        "*Element, type=" + type +
+                          "\n1, 1, 2, 3, 4\n*Element, type=C3D8");
   check_block(".inp of another hand", *read(written, ".inp"));
   check_block(".vtk 3.0", *read(vtk_text(first_order, false), ".vtk"));
   check_block(".vtk 5.1", *read(vtk_text(first_order, true), ".vtk"));
@@ -698,6 +703,15 @@ main()
   refused("node twice", "*Node\n1, 0, 0, 0\n1, 0, 0, 1\n", ".inp");
   refused("no coordinates", "*Node\n1, 0, 0\n", ".inp");
   refused("tetrahedra", "*Element, type=C3D4\n1, 1, 2, 3, 4\n", ".inp");
+  // whatever else resists is as little left out; what only names faces is
+  for (const std::string type :
+       {"SC8R", "COH3D8", "S4R", "M3D4", "R3D4", "B31", "SPRINGA", "U1"})
+    refused(type,
+            in_abaqus(abaqus,
+                      "*Element, type=C3D8R",
+                      "*Element, type=" + type +
+                        "\n1000, 1, 2, 3, 4, 5, 6, 7, 8\n*Element, type=C3D8R"),
+            ".inp");
   refused("no such node",
           "*Node\n1, 0, 0, 0\n*Element, type=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n",
           ".inp");

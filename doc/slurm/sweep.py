@@ -1,6 +1,6 @@
 """Runs the variants of a study on the processes of MPI, and writes a table of the measures of their curves.
 
-    mpirun -np 4 python3 -m mpi4py.futures doc/slurm/sweep.py prm/studies/ensemble.prm ensemble.csv
+    mpirun -np 4 /usr/bin/python3 -m mpi4py.futures doc/slurm/sweep.py prm/studies/ensemble.prm ensemble.csv
 """
 
 import sys

@@ -8,4 +8,4 @@
 #SBATCH --mem-per-cpu=1G
 #SBATCH --time=02:00:00
 export PYTHONPATH=build/release/python OPENBLAS_NUM_THREADS=1
-srun python3 -m mpi4py.futures doc/slurm/sweep.py "$1" "$2"
+srun /usr/bin/python3 -m mpi4py.futures doc/slurm/sweep.py "$1" "$2"

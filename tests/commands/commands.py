@@ -28,7 +28,7 @@ TABLE = 'tests/commands/commands.txt'
 COMMAND = re.compile(r'''(?:[A-Z][A-Z_]*=\S+\ +)*(?:
     (?:build/[\w/]+|\./\w+|(?:doc|tests)/[\w/]+\.(?:sh|py))(?=\ |$)
     | debond\ +(?=-|\S+\.prm)
-    | (?:mpirun(?=\ +-)|cmake|ctest|cpack|srun|sbatch|gnuplot|pvpython|paraview|python3?|pip3?|venv/bin/\w+|git|sh|bash|sudo|apt|apt-get|dpkg
+    | (?:mpirun(?=\ +-)|cmake|ctest|cpack|srun|sbatch|gnuplot|pvpython|paraview|(?:/usr/bin/)?python3?|pip3?|venv/bin/\w+|git|sh|bash|sudo|apt|apt-get|dpkg
         |podman|docker|jupyter|xvfb-run|export|cd|cmp|ln|cp|mv|mkdir|cut|grep|sed|awk|cat|head|tail|man|curl|wget|tar|ninja|make)\ +(?=\S)
     )''', re.X)
 TOOL = re.compile('(?:export|cd|cmp|ln|cp|mv|mkdir|cut|grep|sed|awk|cat|head|tail|man|git|sh|bash)\\ ')  # within a sentence a part of a command

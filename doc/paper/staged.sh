@@ -35,7 +35,7 @@ print(result['curves'][0][sys.argv[2]] if sys.argv[2] == 'e_mp' else result['unk
 row() {
   awk -v label="$1" -v mu="$2" -v what="$3" -v d="$4" -v mu_ub="$5" -v a_s="$(value "$6" a_s)" -v b_s="$(value "$6" b_s)" \
     -v eps_t="$(value "$7" eps_t)" -v e_mp="$(value "$6" e_mp)" 'BEGIN {
-    printf "| %s | %s | %s | %.2f | %.3f | %.1f | %.2f | %.0f | %.3f |\n", label, what, mu, 1000 * d, mu_ub, 1000 * a_s, b_s, eps_t, 100 * e_mp }'
+    printf "| %s | %s | %s | %.2f | %.3f | %.0f | %.1f | %.0f | %.2f |\n", label, what, mu, 1000 * d, mu_ub, 1000 * a_s, b_s, eps_t, 100 * e_mp }'
 }
 
 interface=Interface
@@ -60,18 +60,18 @@ fit() {
   local guess mu_guess
   guess=$(python3 -c "print($depth * 0.4 / $mu)")
   mu_guess=$(python3 -c "print(1.46 * $mu)")
-  local unknown_depth="$push=-<<d: $guess in 0.0005..0.03 log>> * min(t, 1)"
+  local unknown_depth="$push=<<d: $guess in 0.0005..0.03 log>> * min(t, 1)"
   local unknown_mu="$interface/Friction coefficient unbroken=<<mu_ub: $mu_guess in 0.1..3>>"
   local unknown_eps="$interface/Tangential stiffness=<<eps_t: 400 in 100..3000 log>>"
   local unknown_law=("$interface/Characteristic slip distance=<<a_s: 0.1 in 0.002..0.2 log>>" "$interface/Transition factor=<<b_s: 0.74 in $sharpest..5 log>>")
   local base=("Output/Reference curve=prm/paper/data/closed_form_b_data_set_$set.csv" "$interface/Normal stiffness=$eps_n"
               "Bone/Young modulus=$young" "$interface/Friction coefficient broken=$mu" "$@")
-  stage slope prm/coin_mode3_fast.prm "${base[@]}" "$push=-$guess * min(t, 1)" "$interface/Friction law=coulomb" \
-    "$interface/Friction coefficient broken=$mu_guess" "$unknown_eps" "Calibration/Windows=0, $linear"
-  stage load "$here/slope/fitted.prm" "$interface/Friction coefficient broken=$mu" "$unknown_depth" "Calibration/Windows=9, 10"
+  stage slope prm/coin_mode3_fast.prm "${base[@]}" "$push=$guess * min(t, 1)" "$interface/Friction law=coulomb" \
+    "$interface/Friction coefficient=$mu_guess" "$unknown_eps" "Calibration/Windows=0, $linear"
+  stage load "$here/slope/fitted.prm" "$interface/Friction coefficient=$mu" "$unknown_depth" "Calibration/Windows=9, 10"
   stage peak "$here/load/fitted.prm" "$interface/Friction law=modified coulomb" "$unknown_mu" \
     "$interface/Characteristic slip distance=0.3" "Calibration/Windows=$peak"
-  stage fall "$here/peak/fitted.prm" "${unknown_law[@]}" "Calibration/Windows=" "Calibration/Measure=$measure"
+  stage fall "$here/peak/fitted.prm" "${unknown_law[@]}" "Calibration/Windows=none" "Calibration/Measure=$measure"
   row "$label" "$mu" staged "$(value load d)" "$(value peak mu_ub)" fall slope
   stage once prm/coin_mode3_fast.prm "${base[@]}" "$unknown_depth" "$unknown_mu" "$unknown_eps" "${unknown_law[@]}"
   row "$label" "$mu" "at once" "$(value once d)" "$(value once mu_ub)" once once

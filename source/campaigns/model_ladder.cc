@@ -25,13 +25,11 @@ namespace Debond
     Eigen::ArrayXXd
     prescribed_values(const Scene &scene)
     {
-      const Chuck               chuck(scene.chuck,
-                        Eigen::Vector3d::Zero(),
-                        scene.implant.characteristic_radius());
-      const std::vector<double> times = scene.load_steps.sample_times();
-      Eigen::ArrayXXd           values(6, times.size());
-      for (std::size_t i = 0; i < times.size(); ++i)
-        values.col(i) = chuck.values(times[i]).array();
+      Eigen::ArrayXXd values(6, scene.load_steps.sample_times().size());
+      for (unsigned int k = 0; k < 6; ++k)
+        values.row(k) =
+          Eigen::Map<const Eigen::ArrayXd>(scene.sampled_values(k).data(),
+                                           values.cols());
       return values;
     }
 

@@ -1,7 +1,5 @@
 #include <debond/geometry/surface_geometry.h>
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <Eigen/Geometry>
 
 namespace Debond
@@ -71,22 +69,15 @@ namespace Debond
 
 
 
-  dealii::Quadrature<1>
-  PointsPerElement::along() const
-  {
-    return dealii::QIterated<1>(dealii::QGauss<1>(n / pieces), pieces);
-  }
-
-
-
   std::vector<SurfaceQuadraturePoint>
-  surface_quadrature(const NurbsSurface &surface, const PointsPerElement &n)
+  surface_quadrature(const NurbsSurface          &surface,
+                     const dealii::Quadrature<1> &along)
   {
-    const dealii::Quadrature<2>         gauss(n.along());
+    const dealii::Quadrature<2>         both(along);
     std::vector<SurfaceQuadraturePoint> points;
-    points.reserve(surface.n_elements() * gauss.size());
+    points.reserve(surface.n_elements() * both.size());
     for (unsigned int element = 0; element < surface.n_elements(); ++element)
-      for (const auto &point : element_quadrature(surface, element, gauss))
+      for (const auto &point : element_quadrature(surface, element, both))
         points.push_back(point);
     return points;
   }

@@ -5,22 +5,21 @@
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/number_text.h>
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <algorithm>
 #include <numeric>
 
 namespace Debond
 {
-  BondingPattern::BondingPattern(const BondingParameters &parameters,
-                                 const BodyParameters    &implant,
-                                 const NurbsSurface      &surface,
-                                 const PointsPerElement  &n)
+  BondingPattern::BondingPattern(const BondingParameters     &parameters,
+                                 const BodyParameters        &implant,
+                                 const NurbsSurface          &surface,
+                                 const dealii::Quadrature<1> &along)
     : surface(surface)
-    , n(n)
+    , along(along)
+    , n(along.size())
     , by_element(parameters.resolution == BondingResolution::element)
   {
-    const auto points = surface_quadrature(surface, n);
+    const auto points = surface_quadrature(surface, along);
     all_parts.resize(part_of(points.size() - 1) + 1);
     for (unsigned int q = 0; q < points.size(); ++q)
       {
@@ -43,9 +42,10 @@ namespace Debond
       }
     summary.mean = summary.bonded_area / summary.area;
 
-    const dealii::Quadrature<1> gauss = n.along();
-    for (unsigned int q = 0; q < n; ++q)
-      shares.push_back((q == 0 ? 0. : shares.back()) + gauss.weight(q));
+    shares.resize(n);
+    std::partial_sum(along.get_weights().begin(),
+                     along.get_weights().end(),
+                     shares.begin());
     count_patches();
   }
 
@@ -126,7 +126,7 @@ namespace Debond
       {
         if (pattern != Kind::homogeneous)
           values = bonding_from_source(
-            parameters, implant, surface, n, centres, summary.remark);
+            parameters, implant, surface, along, centres, summary.remark);
         for (unsigned int i = 0; i < values.size(); ++i)
           all_parts[i].phi_0 = values[i];
         return;
@@ -177,12 +177,10 @@ namespace Debond
   std::vector<unsigned int>
   BondingPattern::parts_beside(const unsigned int part) const
   {
-    const PointsPerElement along   = by_element ? PointsPerElement(1) : n;
-    const unsigned int     m       = along; // parts along an element
-    const unsigned int     element = part / (m * m), local = part % (m * m);
+    const unsigned int m       = by_element ? 1 : n; // parts along an element
+    const unsigned int element = part / (m * m), local = part % (m * m);
     const std::array<unsigned int, 2> index{{local % m, local / m}};
-    const auto                        box   = surface.element_bounds(element);
-    const dealii::Quadrature<1>       gauss = along.along();
+    const auto                        box = surface.element_bounds(element);
     std::vector<unsigned int>         result;
     for (unsigned int d = 0; d < 2; ++d)
       for (const bool upwards : {false, true})
@@ -194,8 +192,9 @@ namespace Debond
               continue;
             }
           dealii::Point<2> middle_of_side;
-          middle_of_side[d]     = upwards;
-          middle_of_side[1 - d] = gauss.point(index[1 - d])[0];
+          middle_of_side[d] = upwards;
+          middle_of_side[1 - d] =
+            by_element ? 0.5 : along.point(index[1 - d])[0];
           for (const auto &place :
                surface.places_beside(element,
                                      parameters_at(box, middle_of_side)))
@@ -266,14 +265,14 @@ namespace Debond
 
 
   void
-  check_bonding_pattern(const BondingParameters &parameters,
-                        const BodyParameters    &implant,
-                        const PointsPerElement  &n)
+  check_bonding_pattern(const BondingParameters     &parameters,
+                        const BodyParameters        &implant,
+                        const dealii::Quadrature<1> &along)
   {
     using Kind         = BondingPatternKind;
     const Kind pattern = parameters.pattern;
     if (pattern == Kind::expression || pattern == Kind::image ||
         pattern == Kind::file)
-      BondingPattern(parameters, implant, make_contact_surface(implant), n);
+      BondingPattern(parameters, implant, make_contact_surface(implant), along);
   }
 } // namespace Debond

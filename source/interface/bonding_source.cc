@@ -9,7 +9,6 @@
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/point.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/numerics/rtree.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -67,19 +66,19 @@ namespace Debond
 
 
 
-    /** By element the area means of @p function, by at least @p n x @p n and
-     *  some @p n_across quadrature points across the face; else its values. */
+    /** By element the area means of @p function, by at least its own and some
+     *  @p n_across quadrature points across the face; else its values. */
     std::vector<double>
-    values_of(const PlaceFunction    &function,
-              const bool              by_element,
-              const NurbsSurface     &surface,
-              const PointsPerElement &n,
-              const unsigned int      n_across)
+    values_of(const PlaceFunction         &function,
+              const bool                   by_element,
+              const NurbsSurface          &surface,
+              const dealii::Quadrature<1> &along,
+              const unsigned int           n_across)
     {
       const unsigned int across =
-        n * surface.n_elements_across(); // points of one copy
+        along.size() * surface.n_elements_across(); // points of one copy
       const dealii::QIterated<2> quadrature(
-        n.along(), by_element ? (n_across + across - 1) / across : 1);
+        along, by_element ? (n_across + across - 1) / across : 1);
       std::vector<double> values;
       for (unsigned int element = 0; element < surface.n_elements(); ++element)
         {
@@ -103,12 +102,12 @@ namespace Debond
 
     /** The picture over the square, or rectangle, around the face. */
     std::vector<double>
-    values_of_image(const BondingParameters &parameters,
-                    const BodyParameters    &implant,
-                    const bool               by_element,
-                    const NurbsSurface      &surface,
-                    const PointsPerElement  &n,
-                    std::string             &remark)
+    values_of_image(const BondingParameters     &parameters,
+                    const BodyParameters        &implant,
+                    const bool                   by_element,
+                    const NurbsSurface          &surface,
+                    const dealii::Quadrature<1> &along,
+                    std::string                 &remark)
     {
       GreyImage            image = read_grey_image(parameters.file,
                                         bonding_section + "File",
@@ -133,7 +132,7 @@ namespace Debond
         },
         by_element,
         surface,
-        n,
+        along,
         std::max(200U, 2 * std::max(image.width, image.height)));
     }
 
@@ -324,7 +323,7 @@ namespace Debond
   bonding_from_source(const BondingParameters            &parameters,
                       const BodyParameters               &implant,
                       const NurbsSurface                 &surface,
-                      const PointsPerElement             &n,
+                      const dealii::Quadrature<1>        &along,
                       const std::vector<Eigen::Vector2d> &centres,
                       std::string                        &remark)
   {
@@ -341,11 +340,11 @@ namespace Debond
         parameters.file, implant, by_element, surface, centres);
     if (parameters.pattern == BondingPatternKind::image)
       return values_of_image(
-        parameters, implant, by_element, surface, n, remark);
+        parameters, implant, by_element, surface, along, remark);
     return values_of(function_of_expression(parameters.expression, implant),
                      by_element,
                      surface,
-                     n,
+                     along,
                      200);
   }
 

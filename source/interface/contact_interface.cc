@@ -34,13 +34,14 @@ namespace Debond
     , mesh{{&bone, &implant}}
     , master_is_level(mesh[other(slave)]->surface().is_level())
     , master_is_flat(mesh[other(slave)]->surface().is_flat())
-    , n(parameters.points_per_element(bone.parameters(), implant.parameters()))
+    , along(
+        parameters.points_per_element(bone.parameters(), implant.parameters()))
   {
-    // n x n Gauss points per element. A point carries its weight JxW [mm^2] of
+    // A point carries its weight JxW [mm^2] of
     // the reference area, and a history: to begin with no partner, g_s = 0, and
     // the internal variables that the law wants, such as the initial state of a
     // law that ages.
-    const auto places = surface_quadrature(mesh[slave]->surface(), n);
+    const auto places = surface_quadrature(mesh[slave]->surface(), along);
     points.resize(places.size());
     for (unsigned int q = 0; q < points.size(); ++q)
       {
@@ -54,7 +55,7 @@ namespace Debond
       forces[side].setZero(3, mesh[side]->surface().n_control_points());
     // The area of the implant's face [mm^2], whichever side is the slave: what
     // the mean pressure refers to.
-    for (const auto &place : surface_quadrature(implant.surface(), n))
+    for (const auto &place : surface_quadrature(implant.surface(), along))
       area_of_implant += place.JxW;
   }
 
@@ -74,7 +75,7 @@ namespace Debond
       std::make_unique<BondingPattern>(parameters.bonding_of_law(),
                                        mesh[Side::implant]->parameters(),
                                        mesh[Side::implant]->surface(),
-                                       n);
+                                       along);
     for (SlavePoint &point : points)
       point.faces_implant =
         slave == Side::implant || point.accepted.has_partner;
@@ -104,25 +105,6 @@ namespace Debond
   ContactInterface::implant() const
   {
     return mesh[Side::implant]->parameters();
-  }
-
-
-
-  // The area mean of phi_0 as the quadrature points see it, dimensionless. With
-  // the bone as slave points meet the edge of a bonded area only as closely as
-  // they lie, so that this differs from the mean of the pattern; Simulation
-  // warns if it does by more than a hundredth.
-  double
-  ContactInterface::mean_seen_bonding() const
-  {
-    double sum = 0., area = 0.;
-    for (const SlavePoint &point : points)
-      if (point.faces_implant)
-        {
-          sum += point.phi_0 * point.JxW;
-          area += point.JxW;
-        }
-    return area > 0. ? sum / area : 0.;
   }
 
 
@@ -237,35 +219,33 @@ namespace Debond
     errors_of_facets(const NurbsSurface &surface)
     {
       std::vector<double> result(surface.n_elements(), 0.);
-      const auto          middle = [&surface](const unsigned int e) {
-        const auto bounds = surface.element_bounds(e);
-        return Eigen::Vector2d(0.5 * (bounds[0] + bounds[1]));
-      };
-      for (unsigned int e = 0; e < result.size() && !surface.is_one_patch();
-           ++e)
+      if (surface.is_one_patch())
+        return result;
+      const auto middles = surface_quadrature(surface, dealii::QMidpoint<1>());
+      for (const auto &middle : middles)
         {
-          SurfaceBasis    basis;
           SurfaceGeometry here;
-          surface.evaluate_in_element(e, middle(e), basis, false);
-          contract(basis, surface.control_points(), false, here);
+          contract(middle.basis, surface.control_points(), false, here);
           const Eigen::Vector3d n = here.a1.cross(here.a2).normalized();
           for (const unsigned int d : {0, 1})
             {
               double highest = 0.;
-              for (const unsigned int end : {0, 1})
+              for (const auto &corner : surface.element_bounds(middle.element))
                 {
-                  Eigen::Vector2d xi = middle(e);
-                  xi[d]              = surface.element_bounds(e)[end][d];
-                  for (const auto &place : surface.places_beside(e, xi))
+                  Eigen::Vector2d xi = middle.xi;
+                  xi[d]              = corner[d];
+                  for (const auto &place :
+                       surface.places_beside(middle.element, xi))
                     {
                       const Eigen::Vector3d way =
-                        surface.point(middle(place.element)) - here.y;
+                        middles[place.element].X - here.y;
                       const double height = std::abs(n.dot(way));
                       if (height < 0.5 * way.norm())
                         highest = std::max(highest, height);
                     }
                 }
-              result[e] += highest / (surface.degree() == 1 ? 3. : 60.);
+              result[middle.element] +=
+                highest / (surface.degree() == 1 ? 3. : 60.);
             }
         }
       return result;
@@ -278,24 +258,29 @@ namespace Debond
   // first time. A gap that facets account for is none to a bond, which would
   // else hold where meshes match only.
   void
-  ContactInterface::face_at_rest(
-    SlavePoint                               &point,
-    const std::array<std::vector<double>, 2> &errors)
+  ContactInterface::find_facets(const double touch_tolerance)
   {
     const NurbsSurface &surface = mesh[master_side()]->surface();
-    const Projection    rest    = project({&surface,
-                                           &surface.control_points(),
-                                           mesh[master_side()]->outward_sign()},
-                                    point.X,
-                                    &point.accepted.xi);
-    if (!rest.faces)
-      return;
-    const double facets = errors[slave][point.element] +
-                          errors[master_side()][surface.element_of(rest.xi)];
-    at_start.facets  = std::max(at_start.facets, facets);
-    at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
-    if (law.joint->pulls() && std::abs(rest.height) <= facets)
-      point.gap_at_start = rest.height;
+    if (surface.is_one_patch() && mesh[slave]->surface().is_one_patch())
+      return; // smooth
+    const std::vector<double> errors = errors_of_facets(surface),
+                              own    = errors_of_facets(mesh[slave]->surface());
+    const MasterSurface master{&surface,
+                               &surface.control_points(),
+                               mesh[master_side()]->outward_sign()};
+    for (SlavePoint &point : points)
+      {
+        const Projection rest = project(master, point.X, &point.accepted.xi);
+        if (!rest.faces)
+          continue;
+        const double facets =
+          own[point.element] + errors[surface.element_of(rest.xi)];
+        at_start.facets  = std::max(at_start.facets, facets);
+        at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
+        if (law.joint->pulls() && std::abs(rest.height) <= facets &&
+            std::abs(rest.height) > touch_tolerance) // no rounding
+          point.gap_at_start = rest.height;
+      }
   }
 
 
@@ -317,40 +302,35 @@ namespace Debond
     // From one point to the next: a search over the whole master asks all of
     // its elements.
     const SlavePoint *neighbour = nullptr;
-    at_start                    = {};
-    std::array<std::vector<double>, 2> errors;
-    for (const Side side : both_sides)
-      errors[side] = errors_of_facets(mesh[side]->surface());
     for (SlavePoint &point : points)
       {
         if (neighbour != nullptr)
           point.accepted.xi = neighbour->accepted.xi;
-        const Projection projection =
-          project_accepted(point, configuration, neighbour != nullptr);
-        face_at_rest(point, errors);
-        if (std::abs(point.gap_at_start) <= touch_tolerance)
-          point.gap_at_start = 0.; // rounding
+        point.trial.normal_gap =
+          project_accepted(point, configuration, neighbour != nullptr).height;
+        if (!shares.empty())
+          shares[&point - points.data()].xi = point.accepted.xi;
+        if (point.accepted.has_partner)
+          neighbour = &point;
+      }
+    at_start = {};
+    find_facets(touch_tolerance);
+    assign_bonding();
+    for (SlavePoint &point : points)
+      {
+        at_start.bonding_area += point.phi_0 * point.JxW;
+        if (!point.accepted.has_partner)
+          continue;
+        at_start.facing_area += point.JxW;
+        const double gap = point.trial.normal_gap -= point.gap_at_start;
         // faces that touch have grown together; what overlaps has touched once
         // it is in equilibrium
-        point.trial.normal_gap = projection.height - point.gap_at_start;
-        if (projection.faces &&
-            std::abs(point.trial.normal_gap) <= touch_tolerance)
+        if (std::abs(gap) <= touch_tolerance)
           {
             point.accepted.joined     = true;
             point.accepted.normal_gap = 0.;
           }
-        if (!shares.empty())
-          shares[&point - points.data()].xi = projection.xi;
-        if (point.accepted.has_partner)
-          neighbour = &point;
-      }
-    assign_bonding();
-    for (const SlavePoint &point : points)
-      {
-        at_start.facing_area += point.accepted.has_partner ? point.JxW : 0.;
-        at_start.bonding_area += point.phi_0 * point.JxW;
-        if (!point.accepted.has_partner || point.phi_0 == 0. ||
-            point.trial.normal_gap > touch_tolerance)
+        if (point.phi_0 == 0. || gap > touch_tolerance)
           continue;
         ++at_start.n_bonded;
         at_start.bonded_area += point.phi_0 * point.JxW;
@@ -363,79 +343,69 @@ namespace Debond
 
   namespace
   {
-    /** Derivatives of turn_of_way() by the components of the chuck that are
-     *  unknown. */
-    Chuck::Vector6
-    turn_by_chuck(const RigidMotion            &rigid,
-                  const InterfaceConfiguration &configuration,
-                  const Eigen::Vector3d        &old_x,
-                  const Side                    slave,
-                  const RigidMotion::Normal    &normal)
+    /** A step of the points to a configuration. */
+    struct StepOfPoints
     {
-      Chuck::Vector6 result = Chuck::Vector6::Zero();
-      if (configuration.chuck_unknowns.empty())
+      const ContactPointLaw        &law;
+      const Side                    slave;
+      const MasterSurface           master;
+      const RigidMotion             rigid;
+      const InterfaceConfiguration &configuration;
+
+      /** That of the master at rest at @p xi, as its frame has turned. */
+      RigidMotion::Normal
+      normal(const Eigen::Vector2d &xi) const
+      {
+        const Eigen::Matrix3d &Q       = configuration.side[other(slave)].frame;
+        const NurbsSurface    &surface = *master.surface;
+        if (master.is_level)
+          return {master.outward_sign * Q.col(2), true};
+        SurfaceBasis    basis;
+        SurfaceGeometry geometry;
+        surface.evaluate(xi, basis, false);
+        contract(basis, surface.control_points(), false, geometry);
+        return {Q * MasterNormal(geometry, master.outward_sign).n,
+                master.is_flat};
+      }
+
+      /** Derivatives of turn_of_way() by the components of the chuck that are
+       *  unknown. */
+      Chuck::Vector6
+      turn_by_chuck(const Eigen::Vector3d     &old_x,
+                    const RigidMotion::Normal &n) const
+      {
+        Chuck::Vector6 result = Chuck::Vector6::Zero();
+        if (configuration.chuck_unknowns.empty())
+          return result;
+        const auto by = rigid.gradient_of_turn(old_x, slave, n);
+        for (const auto &[k, number] : configuration.chuck_unknowns)
+          result[k] = is_rotation(k) ?
+                        by.spin.dot(configuration.chuck->axis(k)) :
+                        by.centre[k];
         return result;
-      const RigidMotion::TurnGradient by =
-        rigid.gradient_of_turn(old_x, slave, normal);
-      for (const auto &unknown : configuration.chuck_unknowns)
-        {
-          const unsigned int k = unknown.first;
-          result[k]            = is_rotation(k) ?
-                                   by.spin.dot(configuration.chuck->axis(k)) :
-                                   by.centre[k];
-        }
-      return result;
-    }
+      }
 
-
-
-    /** That of the master at rest at @p xi, in its frame @p Q. */
-    RigidMotion::Normal
-    normal_of(const MasterSurface   &master,
-              const Eigen::Vector2d &xi,
-              const Eigen::Matrix3d &Q)
-    {
-      const NurbsSurface &surface = *master.surface;
-      if (master.is_level)
-        return {master.outward_sign * Q.col(2), true};
-      SurfaceBasis    basis;
-      SurfaceGeometry geometry;
-      surface.evaluate(xi, basis, false);
-      contract(basis, surface.control_points(), false, geometry);
-      return {Q * MasterNormal(geometry, master.outward_sign).n,
-              master.is_flat};
-    }
-
-
-
-    /** From the state @p start at @p old_x to @p x, the slave point in space
-     * [mm]; finds what master and law make of it (contact_point.cc). */
-    void
-    update_point(const ContactPointLaw        &law,
-                 const Side                    slave,
-                 const SlavePoint             &point,
-                 const ContactPointState      &start,
-                 const Eigen::Vector3d        &old_x,
-                 const MasterSurface          &surface,
-                 const RigidMotion            &rigid,
-                 const InterfaceConfiguration &configuration,
-                 ContactPointMode              mode,
-                 const Eigen::Vector3d        &x,
-                 ContactPointResult           &result)
-    {
-      mode.gap_at_start = point.gap_at_start;
-      if (law.slip_direction == SlipDirection::integrated)
-        {
-          const RigidMotion::Normal normal =
-            normal_of(surface,
-                      start.xi,
-                      configuration.side[other(slave)].frame);
-          mode.turn = rigid.turn_of_way(old_x, slave, normal);
-          result.turn_by_chuck =
-            turn_by_chuck(rigid, configuration, old_x, slave, normal);
-        }
-      update_contact_point(law, start, point.phi_0, x, surface, mode, result);
-    }
+      /** From the state @p start at @p old_x, in space [mm]: finds what master
+       *  and law make of the point (contact_point.cc). */
+      void
+      update(const SlavePoint        &point,
+             const ContactPointState &start,
+             const Eigen::Vector3d   &old_x,
+             ContactPointMode         mode,
+             ContactPointResult      &result) const
+      {
+        mode.gap_at_start = point.gap_at_start;
+        if (law.slip_direction == SlipDirection::integrated)
+          {
+            const RigidMotion::Normal n = normal(start.xi);
+            mode.turn                   = rigid.turn_of_way(old_x, slave, n);
+            result.turn_by_chuck        = turn_by_chuck(old_x, n);
+          }
+        const Eigen::Vector3d x =
+          interpolate(point.basis, configuration.side[slave].positions);
+        update_contact_point(law, start, point.phi_0, x, master, mode, result);
+      }
+    };
   } // namespace
 
 
@@ -483,13 +453,15 @@ namespace Debond
     // the master where it is now, and how far things have moved at most since
     // the accepted state. The mode of this step is needed again when it is
     // judged and when it is committed.
-    const MasterSurface surface = master(configuration);
-    const double        moved   = motion(configuration);
-    const auto         &sides   = configuration.side;
-    mode_now                    = mode;
-    const RigidMotion rigid({accepted_frame, accepted_centre},
-                            Place::of_implant(configuration));
-    const auto        update = [&](const unsigned int q, NodalSums &sums) {
+    const double moved = motion(configuration);
+    mode_now           = mode;
+    const StepOfPoints step{law,
+                            slave,
+                            master(configuration),
+                            {{accepted_frame, accepted_centre},
+                             Place::of_implant(configuration)},
+                            configuration};
+    const auto         update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint         &point  = points[q];
       ContactPointResult &result = point.trial;
       if (!shares.empty())
@@ -507,17 +479,11 @@ namespace Debond
         entered = entry(point, configuration);
       const ContactPointState &start =
         point.accepted.has_partner ? point.accepted : entered;
-      update_point(law,
-                   slave,
-                   point,
-                   start,
-                   interpolate(point.basis, accepted_positions[slave]),
-                   surface,
-                   rigid,
-                   configuration,
-                   shares.empty() ? mode : shares[q].with_damage(mode),
-                   interpolate(point.basis, sides[slave].positions),
-                   result);
+      step.update(point,
+                  start,
+                  interpolate(point.basis, accepted_positions[slave]),
+                  shares.empty() ? mode : shares[q].with_damage(mode),
+                  result);
       if (result.state.status == PointStatus::open)
         return;
       // f_A = int N_A t dA on the slave, and the opposite on the master at
@@ -583,10 +549,18 @@ namespace Debond
     InterfaceConfiguration first = middle, last = configuration;
     first.chuck_unknowns.clear(); // no derivatives
     last.chuck_unknowns.clear();
-    const MasterSurface surface = master(first), last_surface = master(last);
-    const Place         middle_place = Place::of_implant(first);
-    const RigidMotion   rigid({accepted_frame, accepted_centre}, middle_place),
-      last_rigid(middle_place, Place::of_implant(last));
+    const Place        middle_place = Place::of_implant(first);
+    const StepOfPoints first_step{law,
+                                  slave,
+                                  master(first),
+                                  {{accepted_frame, accepted_centre},
+                                   middle_place},
+                                  first},
+      last_step{law,
+                slave,
+                master(last),
+                {middle_place, Place::of_implant(last)},
+                last};
     ContactPointMode mode = mode_now;
     mode.duration *= 0.5;
     const auto update = [&](const unsigned int q, NodalSums &sums) {
@@ -595,34 +569,17 @@ namespace Debond
       if (!begin.has_partner || !end.has_partner ||
           (!slides(begin.status) && !slides(end.status)))
         return;
-      const auto at = [&](const ControlNet &positions) {
-        return Eigen::Vector3d(interpolate(point.basis, positions));
-      };
-      const Eigen::Vector3d old_x = at(accepted_positions[slave]),
-                            x     = at(first.side[slave].positions);
       ContactPointResult half, whole;
-      update_point(law,
-                   slave,
-                   point,
-                   point.accepted,
-                   old_x,
-                   surface,
-                   rigid,
-                   first,
-                   mode,
-                   x,
-                   half);
-      update_point(law,
-                   slave,
-                   point,
-                   half.state,
-                   x,
-                   last_surface,
-                   last_rigid,
-                   last,
-                   mode,
-                   at(last.side[slave].positions),
-                   whole);
+      first_step.update(point,
+                        begin,
+                        interpolate(point.basis, accepted_positions[slave]),
+                        mode,
+                        half);
+      last_step.update(point,
+                       half.state,
+                       interpolate(point.basis, first.side[slave].positions),
+                       mode,
+                       whole);
       // A string forgets errors as it is towed, by exp(-slip / length) in a
       // step. Until then those of earlier steps are in it, too, taken to be
       // those of this one.
@@ -653,9 +610,12 @@ namespace Debond
     tangent_is_gathered = false;
     if (law.slip_direction != SlipDirection::integrated)
       return;
-    const RigidMotion   rigid({accepted_frame, accepted_centre},
-                            Place::of_implant(configuration));
-    const MasterSurface surface = master(configuration);
+    const StepOfPoints step{law,
+                            slave,
+                            master(configuration),
+                            {{accepted_frame, accepted_centre},
+                             Place::of_implant(configuration)},
+                            configuration};
     for (SlavePoint &point : points)
       if (slides(point.trial.state.status))
         {
@@ -663,13 +623,9 @@ namespace Debond
           const ContactPointState &start =
             point.accepted.has_partner ? point.accepted : point.trial.state;
           point.trial.turn_by_chuck =
-            turn_by_chuck(rigid,
-                          configuration,
-                          interpolate(point.basis, accepted_positions[slave]),
-                          slave,
-                          normal_of(surface,
-                                    start.xi,
-                                    configuration.side[master_side()].frame));
+            step.turn_by_chuck(interpolate(point.basis,
+                                           accepted_positions[slave]),
+                               step.normal(start.xi));
         }
   }
 

@@ -71,7 +71,7 @@ namespace Debond
     if (!sectors)
       return points;
     const CyclicSymmetry &of_slave = (*sectors)[slave];
-    const auto places = surface_quadrature(mesh[slave]->surface(), n);
+    const auto places = surface_quadrature(mesh[slave]->surface(), along);
     images.clear();
     images.reserve(places.size());
     for (unsigned int q = 0; q < places.size(); ++q)

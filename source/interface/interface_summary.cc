@@ -82,7 +82,8 @@ namespace Debond
     const NurbsSurface &surface = mesh[slave]->surface();
     if (!surface.is_one_patch())
       return 0; // there are no rows
-    const auto elements = surface.n_elements_per_direction();
+    const auto         elements = surface.n_elements_per_direction();
+    const unsigned int n        = along.size();
     // element by element, and in each of them, the first parameter fastest
     const auto number = [&](const unsigned int i, const unsigned int j) {
       return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;
@@ -91,11 +92,12 @@ namespace Debond
       return points[sectors ? number_of_kept[q] : q];
     };
     double highest = 0.; // [mm]
-    for (const SlavePoint &one : points)
-      if (one.trial.pressure > 0. && !law.joint->pulls())
-        highest =
-          std::max(highest,
-                   law.joint->reach(one.begin(*law.joint, mode_now), 0.));
+    if (!law.joint->pulls())
+      for (const SlavePoint &one : points)
+        if (one.trial.pressure > 0.)
+          highest =
+            std::max(highest,
+                     law.joint->reach(one.begin(*law.joint, mode_now), 0.));
     // in its row, its column, or both
     std::vector<unsigned int> times_enclosed(n_points(), 0);
     for (const bool is_row : {true, false})

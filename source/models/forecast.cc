@@ -97,7 +97,8 @@ namespace Debond
     // smaller than the disk, are other causes
     if (scene.interface.slave == Side::bone ||
         scene.implant.contact_surface == SurfaceKind::bilinear ||
-        scene.interface.points_per_element(scene.bone, scene.implant) < 3 ||
+        scene.interface.points_per_element(scene.bone, scene.implant).size() <
+          3 ||
         scene.interface.friction->is_frictionless())
       return "";
     const Forecast forecast(scene);

@@ -190,11 +190,10 @@ namespace Debond
     if (!is_begun(scene.load_steps.times, before.load_steps.times) ||
         !is_begun(scene.load_steps.steps, before.load_steps.steps))
       return false;
-    const double R = scene.implant.characteristic_radius();
     for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
       {
-        const auto now  = scene.chuck.value_over_time(k, R),
-                   then = before.chuck.value_over_time(k, R);
+        const auto now  = scene.value_over_time(k),
+                   then = before.value_over_time(k);
         for (const double time : before.load_steps.sample_times())
           if (std::abs(now(time) - then(time)) > 1e-12 * std::abs(then(time)))
             return false;

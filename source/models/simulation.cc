@@ -42,12 +42,9 @@ namespace Debond
     warnings_of(const Scene &scene, const ContactInterface &interface)
     {
       std::vector<Warning> warnings = scene.warnings();
-      // The pattern of the initial bonding phi_0 belongs to the implant. If the
-      // quadrature points are the bone's, they see it where they happen to lie.
-      const auto  &report  = interface.bonding().report();
-      const double seen    = interface.mean_seen_bonding();
-      const auto   bonding = scene.interface.bonding_of_law();
-      const auto   box = scene.implant.geometry().box_of_face(scene.implant);
+      const auto          &report   = interface.bonding().report();
+      const auto           bonding  = scene.interface.bonding_of_law();
+      const auto box = scene.implant.geometry().box_of_face(scene.implant);
       if (report.mean == 0. &&
           bonding.initial_bonding * bonding.bonded_fraction > 0.)
         warnings.push_back({"nothing bonded",
@@ -60,7 +57,12 @@ namespace Debond
       // What it was read from, a picture for instance, may need a remark, too.
       if (!report.remark.empty())
         warnings.push_back({"picture", report.remark});
-      if (std::abs(seen - report.mean) > 0.01 * report.mean)
+      // The pattern of the initial bonding phi_0 belongs to the implant. If the
+      // quadrature points are the bone's, they see it where they happen to lie.
+      const FacesAtStart &faces = interface.faces_at_start();
+      const double        seen  = faces.bonding_area / faces.facing_area;
+      if (interface.slave_side() == Side::bone &&
+          std::abs(seen - report.mean) > 0.01 * report.mean)
         warnings.push_back(
           {"bonding",
            "the quadrature points of the bone, which is the slave, see a mean "
@@ -68,7 +70,6 @@ namespace Debond
              to_text(seen, 4) + " instead of " + to_text(report.mean, 4) +
              ": Slave = implant meets it exactly, more elements of the bone "
              "more closely"});
-      const FacesAtStart &faces = interface.faces_at_start();
       if (faces.overlap > 1e-6 * scene.implant.characteristic_radius())
         warnings.push_back(
           {"overlap",

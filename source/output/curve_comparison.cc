@@ -321,12 +321,9 @@ namespace Debond
     const unsigned int moved = axes.position;
     const double       T_largest =
       largest(measured, &ReferenceCurve::value_type::second);
-    const TimeFunction value_at =
-      scene.chuck.value_over_time(moved, scene.implant.characteristic_radius());
     ReferenceCurve expected;
-    for (const double time : scene.load_steps.sample_times())
+    for (const double value : scene.sampled_values(moved))
       {
-        const double value = value_at(time);
         expected.emplace_back(value, std::copysign(T_largest, value));
         if (value == 0.) // also -0
           expected.back() = {0., 0.};

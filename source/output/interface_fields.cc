@@ -8,7 +8,6 @@
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/data_out_base.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -133,7 +132,7 @@ namespace Debond
       QuadratureGrid(const ContactInterface &interface,
                      const NurbsSurface     &surface)
         : points(interface.points_of_all_sectors(images))
-        , n(interface.points_per_element())
+        , n(interface.points_per_element().size())
         , is_one_patch(surface.is_one_patch())
         , n_elements(is_one_patch ? surface.n_elements_per_direction() :
                                     std::array<unsigned int, 2>{{1, 1}})

@@ -59,8 +59,7 @@ namespace Debond
     , box(scene.implant.geometry().box_of_face(scene.implant))
     , pulls(scene.interface.joint()->pulls())
     , n(scene.interface.slave == Side::implant ?
-          unsigned(
-            scene.interface.points_per_element(scene.bone, scene.implant)) :
+          scene.interface.points_per_element(scene.bone, scene.implant).size() :
           1)
   {}
 

@@ -154,10 +154,7 @@ namespace Debond
     std::array<double, ChuckParameters::n_components> way;
     for (unsigned int k = 0; k < way.size(); ++k)
       {
-        const TimeFunction value_at =
-          chuck.value_over_time(k, implant.characteristic_radius());
-        std::vector<double> values = load_steps.sample_times();
-        std::transform(values.begin(), values.end(), values.begin(), value_at);
+        const std::vector<double> values = sampled_values(k);
         const auto [least, most] =
           std::minmax_element(values.begin(), values.end());
         way[k] =
@@ -222,13 +219,10 @@ namespace Debond
       // a program may give motions that no entry tells of
       for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
         {
-          const auto value =
-            scene.chuck.value_over_time(k,
-                                        scene.implant.characteristic_radius());
           lines.push_back(std::string("Chuck / ") + ChuckParameters::names[k] +
                           " over time:");
-          for (const double time : scene.load_steps.sample_times())
-            lines.back() += " " + to_text(value(time), 17);
+          for (const double value : scene.sampled_values(k))
+            lines.back() += " " + to_text(value, 17);
         }
       return lines;
     }

@@ -50,11 +50,9 @@ namespace Debond
       const double                    largest   = component.loaded ? 1e12 : 1e6;
       try
         {
-          const TimeFunction function =
-            scene.chuck.value_over_time(c,
-                                        scene.implant.characteristic_radius());
-          const double first_value = function(times.front());
-          bool         varies      = false;
+          const TimeFunction function    = scene.value_over_time(c);
+          const double       first_value = function(times.front());
+          bool               varies      = false;
           for (const double time : times)
             {
               const double value = function(time);
@@ -125,7 +123,7 @@ namespace Debond
     void
     check_chuck(const Scene &scene)
     {
-      const std::vector<double> times = scene.load_steps.sample_times();
+      const std::vector<double> times = scene.load_steps.sample_times(true);
       scene.chuck.check();
       check_component(scene, ChuckComponent::rotation_z, times);
       scene.chuck.check_tables(times, scene.implant.characteristic_radius());
@@ -302,17 +300,21 @@ namespace Debond
     bone.check("Bone");
     implant.check("Implant");
     check_faces(bone, implant);
-    for (const auto &[body, section] :
-         {std::pair(&bone, "Bone"), std::pair(&implant, "Implant")})
-      if (model == ModelKind::automatic && body->mesh)
-        throw EntryError(std::string(section) + " / Shape",
-                         "Model = auto makes its own meshes: expected Model = "
-                         "finite elements, or another shape");
-    for (const auto &[body, section] :
-         {std::pair(&bone, "Bone"), std::pair(&implant, "Implant")})
-      if (model == ModelKind::automatic && body->is_fitted())
-        throw EntryError(std::string(section) + " / Cells",
-                         "Model = auto makes its own cells: expected numbers");
+    for (const std::string section : {"Bone", "Implant"})
+      {
+        const BodyParameters &body = section == "Bone" ? bone : implant;
+        check_input_file(body.mesh_file,
+                         section + " / Mesh file",
+                         output.directory);
+        if (model == ModelKind::automatic && body.mesh)
+          throw EntryError(section + " / Shape",
+                           "Model = auto makes its own meshes: expected Model "
+                           "= finite elements, or another shape");
+        if (model == ModelKind::automatic && body.is_fitted())
+          throw EntryError(section + " / Cells",
+                           "Model = auto makes its own cells: expected "
+                           "numbers");
+      }
     if (bone.is_fitted() && implant.shape != BodyShape::coin &&
         implant.shape != BodyShape::cap)
       throw EntryError("Bone / Cells",
@@ -338,11 +340,6 @@ namespace Debond
     for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
       check_input_file(chuck.component[c].file,
                        chuck.entry_name(c, "File"),
-                       output.directory);
-    for (const auto &[body, section] :
-         {std::pair(&bone, "Bone"), std::pair(&implant, "Implant")})
-      check_input_file(body->mesh_file,
-                       std::string(section) + " / Mesh file",
                        output.directory);
     check_input_file(bone.voxel_file, "Bone / Voxel file", output.directory);
     if (bone.modulus && model != ModelKind::finite_elements)

@@ -26,6 +26,16 @@ namespace Debond
 
 
 
+    /** Beyond, lengths have another unit, or everything has another size. */
+    bool
+    has_size(const Scene &scene)
+    {
+      const double R = scene.implant.characteristic_radius();
+      return R >= 0.1 && R <= 100.;
+    }
+
+
+
     /** Notes a warning if it is one: its name, and its text. */
     using Note = std::function<
       void(bool is_one, const std::string &, const std::string &)>;
@@ -89,6 +99,14 @@ namespace Debond
                  "body is too stiff: compare with finer Cells, or take "
                  "Element = spline");
         }
+      const double hole = scene.bone.support_radius,
+                   R    = 0.5 * scene.implant.width(0);
+      note(hole > 0. && hole < R,
+           "hole of the plate",
+           "Bone / Support radius = " + to_text(hole) +
+             " mm is less than the implant's radius, " + to_text(R) +
+             " mm: it would be pushed onto the plate, which it does not meet "
+             "here");
       if (scene.bone.modulus && scene.bone.modulus->voxels() != nullptr)
         judge_voxels(scene, *scene.bone.modulus->voxels(), note);
       for (const unsigned int d : {0, 1})
@@ -110,9 +128,9 @@ namespace Debond
       const Tension bond = scene.interface.joint()->tension();
       if (bond.strength == 0.)
         return;
-      const double length = bond.work / bond.strength,
-                   R      = scene.implant.characteristic_radius();
-      note(R >= 0.1 && length > 0.1 * R,
+      const double length = bond.work / bond.strength;
+      note(has_size(scene) &&
+             length > 0.1 * scene.implant.characteristic_radius(),
            "opening of the bond",
            "the bond opens over some " + to_text(length, 3) +
              " mm (work over strength), more than a tenth of the radius: "
@@ -125,7 +143,7 @@ namespace Debond
             cell = std::max(body->cell_width(0), body->cell_width(1));
           }
       const double zone = E * bond.work / (bond.strength * bond.strength);
-      note(E > 0. && zone < cell && R <= 100.,
+      note(E > 0. && zone < cell && has_size(scene),
            "cohesive zone",
            "a bond that breaks along the face does so over some " +
              to_text(zone, 3) +
@@ -161,8 +179,7 @@ namespace Debond
           to_text(law.mu_without_bond()) + ". Are they swapped?");
       const double distance = law.characteristic_distance(),
                    R        = scene.implant.characteristic_radius();
-      const bool has_size   = R >= 0.1 && R <= 100.;
-      note(!has_size,
+      note(!has_size(scene),
            "size of the implant",
            "the implant's face has a radius of " + to_text(R, 3) +
              " mm: lengths are mm. If it was meant in " +
@@ -174,7 +191,7 @@ namespace Debond
            "size of mu",
            "the friction coefficient is " + to_text(mu, 3) +
              ": it is a number, no per cent");
-      note(law.has_bond() && has_size && distance > 0.5 * R,
+      note(law.has_bond() && has_size(scene) && distance > 0.5 * R,
            "length of the bond",
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) +
@@ -188,15 +205,15 @@ namespace Debond
              "bond where it is beside the implant. Slave = implant takes both "
              "along");
       // that of the paper is a hundredth of the radius
-      note(law.has_bond() && has_size && distance < 5e-5 * R,
+      note(law.has_bond() && has_size(scene) && distance < 5e-5 * R,
            "short bond",
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) + " mm: lengths are mm, 22 um is 0.022");
-      const unsigned int points =
-                           scene.interface.points_per_element(scene.bone,
-                                                              scene.implant),
-                         fewest = scene.interface.fewest_points_per_element(
-                           scene.bone, scene.implant);
+      const unsigned int
+        points =
+          scene.interface.points_per_element(scene.bone, scene.implant).size(),
+        fewest =
+          scene.interface.fewest_points_per_element(scene.bone, scene.implant);
       note(points < fewest,
            "cells without points",
            "Interface / Quadrature points = " + std::to_string(points) +
@@ -301,7 +318,7 @@ namespace Debond
       // Soft bodies may be meant to be pressed by little.
       const double p = push / (implant.width(0) * implant.width(1) *
                                implant.geometry().share_of_rectangle());
-      note(z.loaded && push > 0. && implant.characteristic_radius() <= 100. &&
+      note(z.loaded && push > 0. && has_size(scene) &&
              p < std::min({1e-3,
                            1e-6 * bone.young_modulus,
                            1e-6 * implant.young_modulus}),
@@ -361,7 +378,8 @@ namespace Debond
         0.5 * M_PI *
         (scene.interface.slave == Side::implant ? implant : bone)
           .cell_width(d) /
-        (scene.interface.points_per_element(bone, implant) * implant.width(d));
+        (scene.interface.points_per_element(bone, implant).size() *
+         implant.width(d));
       note(over_edge && way > 0. && row > 0.05,
            "cells over the edge",
            entry +
@@ -417,50 +435,20 @@ namespace Debond
 
 
 
-    // The bone stands on a plate with a hole, and is held there.
-    void
-    judge_plate(const Scene               &scene,
-                const std::string         &entry,
-                const std::vector<double> &values,
-                const Note                &note)
-    {
-      const double hole = scene.bone.support_radius,
-                   R    = 0.5 * scene.implant.width(0);
-      note(hole < R,
-           "hole of the plate",
-           "Bone / Support radius = " + to_text(hole) +
-             " mm is less than the implant's radius, " + to_text(R) +
-             " mm: it would be pushed onto the plate, which it does not meet "
-             "here");
-      note(*std::max_element(values.begin(), values.end()) > 0.,
-           "pull from the plate",
-           entry +
-             " pulls the implant up, and the plate (Bone / Support "
-             "radius) holds the bone, where a plate only pushes: expected "
-             "Ends = held, or a push");
-    }
-
-
-
     void
     judge_chuck(const Scene &scene, const Note &note)
     {
-      const std::vector<double> times = scene.load_steps.sample_times();
+      const std::vector<double> &times = scene.load_steps.times;
       for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
         {
           const ChuckComponentParameters &component = scene.chuck.component[k];
-          const TimeFunction              value_at =
-            scene.chuck.value_over_time(k,
-                                        scene.implant.characteristic_radius());
-          std::vector<double> values;
-          for (const double time : times)
-            values.push_back(value_at(time));
-          const std::string entry =
+          const std::vector<double>       values    = scene.sampled_values(k);
+          const std::string               entry =
             component.file.empty() ?
-              scene.chuck.entry_name(k, "Value") + " = " + component.value :
-              scene.chuck.entry_name(k, "File") + " = " + component.file;
+                            scene.chuck.entry_name(k, "Value") + " = " + component.value :
+                            scene.chuck.entry_name(k, "File") + " = " + component.file;
           note(values == std::vector<double>(values.size(), values[0]) &&
-                 changes_later(component, value_at, times),
+                 changes_later(component, scene.value_over_time(k), times),
                entry,
                entry + " is " + to_text(values[0]) + " at all times from " +
                  to_text(times.front()) + " to " + to_text(times.back()) +
@@ -470,9 +458,15 @@ namespace Debond
             judge_crossing(scene, k, entry, values, note);
           if (is_on_bone(scene) && k == ChuckComponent::translation_z)
             judge_push(scene, entry, values, note);
-          if (k == ChuckComponent::translation_z &&
-              scene.bone.support_radius > 0.)
-            judge_plate(scene, entry, values, note);
+          // the bone stands on a plate with a hole, and is held there
+          note(k == ChuckComponent::translation_z &&
+                 scene.bone.support_radius > 0. &&
+                 *std::max_element(values.begin(), values.end()) > 0.,
+               "pull from the plate",
+               entry +
+                 " pulls the implant up, and the plate (Bone / Support "
+                 "radius) holds the bone, where a plate only pushes: expected "
+                 "Ends = held, or a push");
           if (k == ChuckComponent::rotation_z)
             judge_rotation(scene, entry, values, note);
         }

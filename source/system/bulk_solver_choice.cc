@@ -21,12 +21,9 @@ namespace Debond
     double
     largest_value(const ModelParameters &model, const unsigned int component)
     {
-      const auto function =
-        model.chuck.value_over_time(component,
-                                    model.implant.characteristic_radius());
       double largest = 0.;
-      for (const double time : model.load_steps.sample_times())
-        largest = std::max(largest, std::abs(function(time)));
+      for (const double value : model.sampled_values(component))
+        largest = std::max(largest, std::abs(value));
       return largest;
     }
 

@@ -48,16 +48,16 @@ namespace Debond
     Eigen::VectorXd       motion      = Eigen::VectorXd::Zero(n_v + 6);
     // on a spring stiffer than the face the chuck goes along, but for little
     for (unsigned int k = 0; k < 6; ++k)
-      if (chuck.is_prescribed(k) || path.row_scale(chuck, k) < 1.)
+      if (chuck.is_prescribed(k) || path.row_scale[k] < 1.)
         motion[n_v + k] = given[k];
     const Eigen::VectorXd change =
       whole.interface_product(motion) + by_duration;
     Eigen::VectorXd right(unknowns);
     right.head(n_v) = change.head(n_v);
     for (const auto &[k, number] : configuration.chuck_unknowns)
-      right[number] = path.row_scale(chuck, k) *
-                      (change[n_v + k] - chuck.machine_load_per_value(k) *
-                                           (given[k] - motion[n_v + k]));
+      right[number] =
+        path.row_scale[k] * (change[n_v + k] - chuck.machine_load_per_value(k) *
+                                                 (given[k] - motion[n_v + k]));
     // What an iterative solver leaves differs from processor to processor, and
     // the sizes of steps, which depend on rates, must not.
     constexpr double tolerance = 1e-8;

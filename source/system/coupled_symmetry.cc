@@ -42,7 +42,7 @@ namespace Debond
       return surface_quadrature(body[side]->surface(),
                                 side == interface.slave_side() ?
                                   interface.points_per_element() :
-                                  PointsPerElement(1));
+                                  dealii::QMidpoint<1>());
     };
     const auto of_implant = points(Side::implant);
     for (unsigned int n = most; n > 1; --n)

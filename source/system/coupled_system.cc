@@ -105,8 +105,13 @@ namespace Debond
     // rows of forces and moments beside them. It also stands for the chuck in
     // the preconditioner, where that has no other stiffness (CoupledTangent).
     for (unsigned int k = 0; k < 6; ++k)
-      path.stiffness[k] = parameters.interface.normal_penalty *
-                          interface.implant_area() * std::pow(scale_of(k), 2);
+      {
+        path.stiffness[k] = parameters.interface.normal_penalty *
+                            interface.implant_area() * std::pow(scale_of(k), 2);
+        path.row_scale[k] =
+          path.stiffness[k] /
+          std::max(path.stiffness[k], -chuck.machine_stiffness(k));
+      }
   }
 
 
@@ -446,7 +451,7 @@ namespace Debond
       if (!chuck.is_prescribed(component)) // along a path it follows the time
         {
           const double load         = chuck.machine_load(component);
-          const double scale        = path.row_scale(chuck, component);
+          const double scale        = path.row_scale[component];
           const double force        = scale * (forces[component] - load);
           residual.unknowns[number] = force;
           norm_squared += std::pow(force / scale_of(component), 2);

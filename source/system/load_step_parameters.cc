@@ -204,11 +204,11 @@ namespace Debond
 
 
   std::vector<double>
-  LoadSteppingParameters::sample_times() const
+  LoadSteppingParameters::sample_times(const bool planned_first) const
   {
     constexpr double    golden = 0.6180339887498949;
     const unsigned int  wanted = std::max<std::size_t>(1, 1000 / steps.size());
-    std::vector<double> result{times.back()};
+    std::vector<double> result, between;
     for (unsigned int phase = 0; phase < steps.size(); ++phase)
       {
         const unsigned int n     = std::min(steps[phase], wanted);
@@ -216,9 +216,34 @@ namespace Debond
                      size        = (times[phase + 1] - begin) / n;
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int k = 0; k <= 1 + wanted / n; ++k)
-            result.push_back(begin + (i + std::fmod(k * golden, 1.)) * size);
+            (k == 0 ? result : between)
+              .push_back(begin + (i + std::fmod(k * golden, 1.)) * size);
       }
-    std::sort(result.begin(), result.end());
+    result.push_back(times.back());
+    result.insert(result.end(), between.begin(), between.end());
+    if (!planned_first)
+      std::sort(result.begin(), result.end());
     return result;
+  }
+
+
+
+  TimeFunction
+  ModelParameters::value_over_time(const unsigned int component) const
+  {
+    return chuck.value_over_time(component, implant.characteristic_radius());
+  }
+
+
+
+  std::vector<double>
+  ModelParameters::sampled_values(const unsigned int component) const
+  {
+    std::vector<double> values = load_steps.sample_times();
+    std::transform(values.begin(),
+                   values.end(),
+                   values.begin(),
+                   value_over_time(component));
+    return values;
   }
 } // namespace Debond

@@ -191,10 +191,11 @@ namespace Debond
     const auto cells =
       (model.interface.slave == Side::implant ? model.implant : model.bone)
         .lattice_of_cells();
-    points = 2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
-             std::pow(double(model.interface.points_per_element(model.bone,
-                                                                model.implant)),
-                      2);
+    points =
+      2. * sizeof(SlavePoint) * double(cells[0]) * cells[1] *
+      std::pow(
+        model.interface.points_per_element(model.bone, model.implant).size(),
+        2);
     constexpr double program = 150e6; // with its libraries
     total                    = program + bone + implant + points;
     for (double *const part : {&bone, &implant, &points, &total})

@@ -84,7 +84,7 @@ patch_test(const BodyParameters &parameters, const Side side)
 
   // control points: traction times the integral of their functions
   Eigen::VectorXd integral = Eigen::VectorXd::Zero(surface.n_control_points());
-  for (const auto &point : surface_quadrature(surface, 10))
+  for (const auto &point : surface_quadrature(surface, dealii::QGauss<1>(10)))
     for (unsigned int a = 0; a < point.basis.size; ++a)
       integral[point.basis.control_point[a]] += point.basis.N[a] * point.JxW;
   const Eigen::Vector3d traction = mesh.outward_sign() * stress.col(2);

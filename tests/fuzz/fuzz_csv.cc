@@ -29,7 +29,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
       Debond::BondingPattern(bonding,
                              implant,
                              Debond::make_contact_surface(implant),
-                             3);
+                             dealii::QGauss<1>(3));
     });
   return 0;
 }

@@ -25,7 +25,7 @@ Measures
 measures(const NurbsSurface &face)
 {
   Measures result;
-  for (const auto &point : surface_quadrature(face, 12))
+  for (const auto &point : surface_quadrature(face, dealii::QGauss<1>(12)))
     {
       SurfaceGeometry geometry;
       contract(point.basis, face.control_points(), false, geometry);

@@ -86,7 +86,7 @@ check(const unsigned int n, const BondingResolution resolution)
   const unsigned int n_q     = 5;
   const double       R       = 2.5;
   const NurbsSurface surface = NurbsSurface::disk(R, n);
-  const auto         points  = surface_quadrature(surface, n_q);
+  const auto points = surface_quadrature(surface, dealii::QGauss<1>(n_q));
 
   // number of the i-th point in one, the j-th in the other direction
   const auto number = [&](const unsigned int i, const unsigned int j) {
@@ -101,7 +101,10 @@ check(const unsigned int n, const BondingResolution resolution)
       parameters.bonded_fraction = fraction;
       parameters.initial_bonding = (fraction == 0.5 ? 0.6 : 1.);
       parameters.resolution      = resolution;
-      const BondingPattern pattern(parameters, coin, surface, n_q);
+      const BondingPattern pattern(parameters,
+                                   coin,
+                                   surface,
+                                   dealii::QGauss<1>(n_q));
 
       double bonded = 0, area = 0;
       for (unsigned int q = 0; q < points.size(); ++q)
@@ -162,7 +165,10 @@ main()
   const NurbsSurface surface = NurbsSurface::disk(2.5, 3);
   BondingParameters  parameters;
   parameters.initial_bonding = 0.4;
-  const BondingPattern homogeneous(parameters, coin, surface, 5);
+  const BondingPattern homogeneous(parameters,
+                                   coin,
+                                   surface,
+                                   dealii::QGauss<1>(5));
   report("Homogeneous: mean, deviation",
          std::abs(homogeneous.report().mean - 0.4),
          1e-14);
@@ -175,7 +181,7 @@ main()
   parameters.pattern         = BondingPatternKind::disk;
   parameters.bonded_fraction = 0.3;
   parameters.resolution      = BondingResolution::quadrature_point;
-  const BondingPattern pattern(parameters, coin, surface, 5);
+  const BondingPattern pattern(parameters, coin, surface, dealii::QGauss<1>(5));
   double               mean    = 0;
   const unsigned int   samples = 400;
   for (unsigned int j = 0; j < samples; ++j)

@@ -34,7 +34,7 @@ make_pattern(const NurbsSurface      &surface,
   parameters.resolution         = resolution;
   parameters.seed               = seed;
   parameters.correlation_length = correlation;
-  return {parameters, coin, surface, 3};
+  return {parameters, coin, surface, dealii::QGauss<1>(3)};
 }
 
 

@@ -43,7 +43,7 @@ make_pattern(const BondingParameters &parameters, const BodyParameters &implant)
   static std::vector<std::unique_ptr<NurbsSurface>> surfaces;
   surfaces.push_back(
     std::make_unique<NurbsSurface>(make_contact_surface(implant)));
-  return {parameters, implant, *surfaces.back(), 3};
+  return {parameters, implant, *surfaces.back(), dealii::QGauss<1>(3)};
 }
 
 
@@ -127,7 +127,7 @@ check_means()
   const auto           pattern =
     make_pattern(expression("0.5 + 0.2 * x * y / r"), implant);
   std::vector<double> sum(9), area(9);
-  for (const auto &point : surface_quadrature(surface, 40))
+  for (const auto &point : surface_quadrature(surface, dealii::QGauss<1>(40)))
     {
       sum[point.element] += point.JxW * (0.5 + 0.2 * point.X[0] * point.X[1] /
                                                  point.X.head<2>().norm());
@@ -142,7 +142,7 @@ check_means()
     make_pattern(expression("0.5 + 0.2 * x * y / r",
                             BondingResolution::quadrature_point),
                  implant);
-  const auto points = surface_quadrature(surface, 3);
+  const auto points = surface_quadrature(surface, dealii::QGauss<1>(3));
   largest           = 0.;
   for (unsigned int q = 0; q < points.size(); ++q)
     grow(largest,
@@ -503,8 +503,8 @@ check_bores()
                1e-5);
 
       const NurbsSurface surface = make_contact_surface(implant);
-      const auto         points  = surface_quadrature(surface, 3);
-      const auto         by_point =
+      const auto points = surface_quadrature(surface, dealii::QGauss<1>(3));
+      const auto by_point =
         make_pattern(expression("r / (4 * R) + (angle + 180) / 1000",
                                 BondingResolution::quadrature_point),
                      implant);

@@ -216,7 +216,10 @@ namespace
     bonding.pattern     = BondingPatternKind::image;
     bonding.file        = "uniform.png";
     bonding.white_level = 4095;
-    const BondingPattern pattern(bonding, implant, surface, 3);
+    const BondingPattern pattern(bonding,
+                                 implant,
+                                 surface,
+                                 dealii::QGauss<1>(3));
     report("mean phi_0 of 12 bits is a half",
            std::abs(pattern.report().mean - 0.5),
            1e-4);

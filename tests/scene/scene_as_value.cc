@@ -108,10 +108,11 @@ main()
         scene.interface.slave = Side::implant;
         scene.bone.element    = element;
         scene.bone.cells      = {{cells, cells, 2}};
-        std::cout << "points: "
-                  << scene.interface.points_per_element(scene.bone,
-                                                        scene.implant)
-                  << '\n';
+        std::cout
+          << "points: "
+          << scene.interface.points_per_element(scene.bone, scene.implant)
+               .size()
+          << '\n';
       }
 
   for (const double number :

@@ -5,7 +5,6 @@
 
 #include <debond/bulk/bulk_space.h>
 #include <debond/geometry/surface_geometry.h>
-#include <debond/geometry/surface_geometry.h>
 
 #include <Eigen/Geometry>
 
@@ -59,7 +58,7 @@ error_of_cap(const unsigned int n)
         grow(error.surface, std::abs((y - centre).norm() - sphere_radius) / R);
         grow(error.normal, (normal - (centre - y).normalized()).norm());
       }
-  for (const auto &point : surface_quadrature(cap, 8))
+  for (const auto &point : surface_quadrature(cap, dealii::QGauss<1>(8)))
     error.area += point.JxW;
   error.area = std::abs(error.area / (2. * M_PI * sphere_radius *
                                       height_on_sphere(R, sphere_radius)) -
@@ -137,7 +136,7 @@ check_cap()
     {
       parameters.contact_surface = kind;
       const BulkSpace mesh(parameters, Side::implant);
-      double         corners = 0, layers = 0;
+      double          corners = 0, layers = 0;
       for (const BulkSpace::Cell &cell : mesh.cells())
         if (cell.enriched)
           {

@@ -79,7 +79,7 @@ distance_from_side(const BodyParameters &implant,
 {
   const NurbsSurface face   = make_contact_surface(body, side);
   double             result = 0.;
-  for (const auto &point : surface_quadrature(face, 6))
+  for (const auto &point : surface_quadrature(face, dealii::QGauss<1>(6)))
     {
       const auto  &X = point.X;
       const double r =
@@ -197,7 +197,7 @@ check_press_fit(const std::string &shape)
     grown.col(A) +=
       0.1 * implant.geometry().outwards(implant, face.control_points().col(A));
   double error = 0.;
-  for (const auto &point : surface_quadrature(face, 5))
+  for (const auto &point : surface_quadrature(face, dealii::QGauss<1>(5)))
     grow(error,
          (interpolate(point.basis, grown) - point.X -
           0.1 * implant.geometry().outwards(implant, point.X))

@@ -106,7 +106,7 @@ sums(const Debond::ContactInterface &interface)
     s.energy, s.max_softening, s.steepest_softening, s.max_penetration,
     s.max_traction, s.n_closed, s.bonded_opened, interface.n_enclosed(),
     interface.n_unprojected(), interface.implant_area(),
-    interface.mean_seen_bonding(), w.dissipation, w.dissipation_bound,
+    interface.faces_at_start().bonding_area, w.dissipation, w.dissipation_bound,
     w.step_dissipation, w.adhesive, w.viscous, w.damage, w.friction,
     w.friction_bound;
   return result;

@@ -3,13 +3,9 @@
 
 #include <debond/geometry/nurbs_surface.h>
 
-#include <vector>
+#include <deal.II/base/quadrature_lib.h>
 
-namespace dealii
-{
-  template <int dim>
-  class Quadrature;
-}
+#include <vector>
 
 namespace Debond
 {
@@ -51,29 +47,11 @@ namespace Debond
                      unsigned int                 element,
                      const dealii::Quadrature<2> &quadrature);
 
-  /** Quadrature points along each parameter of an element: as many Gauss points
-   *  in each of its equal pieces. */
-  struct PointsPerElement
-  {
-    PointsPerElement(const unsigned int n, const unsigned int pieces = 1)
-      : n(n)
-      , pieces(pieces)
-    {}
-    operator unsigned int() const
-    {
-      return n;
-    }
-    dealii::Quadrature<1>
-    along() const;
-
-  private:
-    unsigned int n, pieces; ///< n: of all pieces
-  };
-
-  /** @p n x @p n points in every element, element by element, first parameter
-   *  fastest. */
+  /** In every element, element by element, the points of @p along in both
+   *  parameters, the first one fastest. */
   std::vector<SurfaceQuadraturePoint>
-  surface_quadrature(const NurbsSurface &surface, const PointsPerElement &n);
+  surface_quadrature(const NurbsSurface          &surface,
+                     const dealii::Quadrature<1> &along);
 
 
 

@@ -23,13 +23,13 @@ namespace Debond
   class BondingPattern
   {
   public:
-    /** @p surface: the contact face of the @p implant. @p n: quadrature points
-     *  per direction and element. Throws EntryError if the expression, the
-     * image or the file is not as it should be. */
-    BondingPattern(const BondingParameters &parameters,
-                   const BodyParameters    &implant,
-                   const NurbsSurface      &surface,
-                   const PointsPerElement  &n);
+    /** @p surface: the contact face of the @p implant, with the points of
+     *  surface_quadrature(). Throws EntryError if the expression, the image or
+     *  the file is not as it should be. */
+    BondingPattern(const BondingParameters     &parameters,
+                   const BodyParameters        &implant,
+                   const NurbsSurface          &surface,
+                   const dealii::Quadrature<1> &along);
 
     struct Part
     {
@@ -96,19 +96,20 @@ namespace Debond
     unsigned int
     point_at(unsigned int element, const Eigen::Vector2d &xi) const;
 
-    const NurbsSurface    &surface;
-    const PointsPerElement n;
-    const bool             by_element;
-    std::vector<Part>      all_parts;
-    std::vector<double>    shares; ///< ends of the points' shares of [0,1]
-    Report                 summary;
+    const NurbsSurface         &surface;
+    const dealii::Quadrature<1> along;
+    const unsigned int          n; ///< of its points
+    const bool                  by_element;
+    std::vector<Part>           all_parts;
+    std::vector<double>         shares; ///< ends of the points' shares of [0,1]
+    Report                      summary;
   };
 
   /** Refuses an expression, an image or a file that gives no pattern on this
-   *  implant with @p n points, before anything runs. Throws EntryError. */
+   *  implant with these points, before anything runs. Throws EntryError. */
   void
-  check_bonding_pattern(const BondingParameters &parameters,
-                        const BodyParameters    &implant,
-                        const PointsPerElement  &n);
+  check_bonding_pattern(const BondingParameters     &parameters,
+                        const BodyParameters        &implant,
+                        const dealii::Quadrature<1> &along);
 } // namespace Debond
 #endif

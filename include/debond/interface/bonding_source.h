@@ -15,8 +15,8 @@ namespace Debond
   struct BodyParameters;
 
   /** The patterns expression, image and file: phi_0 of all elements or, with
-   *  that resolution, of all points of surface_quadrature() with @p n points
-   *  per direction and element, whose places are the @p centres [mm].
+   *  that resolution, of all points of surface_quadrature(), whose places are
+   *  the @p centres [mm].
    *
    *  Elements take area means. Those of expressions take some 200 quadrature
    *  points across the face; pictures are first reduced to means over 256 x 256
@@ -27,7 +27,7 @@ namespace Debond
   bonding_from_source(const BondingParameters            &parameters,
                       const BodyParameters               &implant,
                       const NurbsSurface                 &surface,
-                      const PointsPerElement             &n,
+                      const dealii::Quadrature<1>        &along,
                       const std::vector<Eigen::Vector2d> &centres,
                       std::string                        &remark);
 

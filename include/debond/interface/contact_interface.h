@@ -329,11 +329,11 @@ namespace Debond
     {
       return sectors ? number_of_kept.size() : points.size();
     }
-    /** Quadrature points per direction and slave surface element. */
-    const PointsPerElement &
+    /** Along each parameter of a slave surface element. */
+    const dealii::Quadrature<1> &
     points_per_element() const
     {
-      return n;
+      return along;
     }
     /** The traction of a point in its trial state, with that of the share that
      *  is held [MPa]. */
@@ -369,11 +369,6 @@ namespace Debond
     {
       return point.friction(*law.joint, point.trial.state);
     }
-    /** The mean of phi_0 over the slave's quadrature points that face the
-     *  implant at the start: that of the pattern if the implant is the slave.
-     */
-    double
-    mean_seen_bonding() const;
     /** phi_0 over the implant's contact face; known from initialise() on. */
     const BondingPattern &
     bonding() const
@@ -505,11 +500,9 @@ namespace Debond
     has_opened_beyond_strength(const SlavePoint &point) const;
     void
     assign_bonding();
-    /** Finds the gap at the start of a point that has its closest point. @p
-     *  errors: of the facets of both sides [mm]. */
+    /** Gaps at the start of faces of several elements, which need not fit. */
     void
-    face_at_rest(SlavePoint                               &point,
-                 const std::array<std::vector<double>, 2> &errors);
+    find_facets(double touch_tolerance);
     /** Gives points of the bone the phi_0 of the implant that they face. */
     void
     follow_pattern();
@@ -550,7 +543,7 @@ namespace Debond
     const Side                       slave;
     std::array<const BulkSpace *, 2> mesh;
     const bool                       master_is_level, master_is_flat;
-    const PointsPerElement           n; ///< points per direction, element
+    const dealii::Quadrature<1>      along; ///< an element
     std::vector<SlavePoint>          points;
     /** Of both surfaces, if one sector stands for all; else null. */
     std::unique_ptr<const SectorsOfSurfaces> sectors;

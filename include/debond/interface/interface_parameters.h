@@ -47,7 +47,7 @@ namespace Debond
     static constexpr unsigned int most_points = 64;
     /** What `Quadrature points' comes to, per direction and slave surface
      *  element. */
-    PointsPerElement
+    dealii::Quadrature<1>
     points_per_element(const BodyParameters &bone,
                        const BodyParameters &implant) const;
     /** With fewer there are cells of the other body without a point. */

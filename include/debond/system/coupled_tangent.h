@@ -28,17 +28,10 @@ namespace Debond
      *  a path the size of the others, and is D of CoupledTangent. 0: the
      *  machine counts for nothing. */
     Chuck::Vector6 stiffness = Chuck::Vector6::Zero();
-
     /** What the equation of a component of the chuck is multiplied by: of a
      *  spring stiffer than the face it would be the rounding of positions times
      *  that, and becomes a length or angle as those of prescribed ones. */
-    double
-    row_scale(const Chuck &chuck, const unsigned int k) const
-    {
-      const double of_spring = -chuck.machine_stiffness(k),
-                   limit     = stiffness[k];
-      return of_spring > limit && limit > 0. ? limit / of_spring : 1.;
-    }
+    Chuck::Vector6 row_scale = Chuck::Vector6::Ones();
 
     /** Returns the residual of the equation for the time, in a trial state at
      *  @p time, in units of force: the whole slip step weighs as much as
@@ -164,7 +157,7 @@ namespace Debond
     scale_rows(const InterfaceConfiguration &numbers, Rows &rows) const
     {
       for (const auto &[k, row] : numbers.chuck_unknowns)
-        rows.row(row) *= path.row_scale(*numbers.chuck, k);
+        rows.row(row) *= path.row_scale[k];
     }
     /** D: stiffness of the unknown component @p k of the chuck in B [N/mm,
      *  N mm]. No body resists it. Where A can be assembled D is 0, B has no

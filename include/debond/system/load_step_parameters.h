@@ -70,9 +70,11 @@ namespace Debond
     /** The same, or an even choice of them if there are many, first and last
      *  time of each phase included, and times between them, some thousand in
      *  all: at fractions of each step that are in tune with no wave. What
-     *  functions of time are judged by. */
+     *  functions of time are judged by. They ascend, or the planned ones come
+     *  first: a message about the first wrong value has a time that is known.
+     */
     std::vector<double>
-    sample_times() const;
+    sample_times(bool planned_first = false) const;
 
     void
     declare(EntryTable &table);
@@ -89,6 +91,13 @@ namespace Debond
     InterfaceParameters    interface;
     ChuckParameters        chuck;
     LoadSteppingParameters load_steps;
+
+    /** What the scene wants of a component of the chuck, in the units of its
+     *  value, and that at the sample_times(). */
+    TimeFunction
+    value_over_time(unsigned int component) const;
+    std::vector<double>
+    sampled_values(unsigned int component) const;
 
     bool
     has_friction() const

@@ -2,6 +2,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/rigid_motion.h>
+#include <debond/shapes/faces_of_mesh.h>
 
 #include <Eigen/Geometry>
 
@@ -281,6 +282,39 @@ namespace Debond
             std::abs(rest.height) > touch_tolerance) // no rounding
           point.gap_at_start = rest.height;
       }
+  }
+
+
+
+  // The bone has the faces on which nothing lies, too, and a block its top.
+  double
+  ContactInterface::area_left_out() const
+  {
+    if (implant().shape != BodyShape::file)
+      return 0.;
+    const auto boundary = [this](const Side side, const FacesOfMesh which) {
+      const NurbsSurface &contact = mesh[side]->surface();
+      const auto         &cells   = mesh[side]->parameters().mesh;
+      return cells ? contact_surface_of(*cells, contact.degree(), side, which) :
+                     contact;
+    };
+    const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
+                       bone   = boundary(Side::bone, FacesOfMesh::all);
+    const std::vector<double> own    = errors_of_facets(others),
+                              errors = errors_of_facets(bone);
+    const MasterSurface master{&bone,
+                               &bone.control_points(),
+                               mesh[Side::bone]->outward_sign()};
+    double              sum = 0.;
+    for (const auto &face : surface_quadrature(others, dealii::QMidpoint<1>()))
+      {
+        const Projection at = project(master, face.X, nullptr);
+        if (at.faces && std::abs(at.height) <=
+                          own[face.element] + errors[bone.element_of(at.xi)] +
+                            1e-6 * std::sqrt(face.JxW))
+          sum += face.JxW;
+      }
+    return sum;
   }
 
 

@@ -87,6 +87,14 @@ namespace Debond
              "them at the start, and count in mean pressure and bonded area: "
              "is it beside the bone, is the bone too short, or is a face left "
              "out of contact?"});
+      const double left_out = interface.area_left_out();
+      if (left_out > 1e-3 * interface.implant_area())
+        warnings.push_back(
+          {"not in contact",
+           to_text(left_out, 4) +
+             " mm^2 of the implant's faces lie on the bone, but are not in "
+             "contact, and carry nothing: name them contact, too, in Implant / "
+             "Mesh file and in the bone's, or leave a gap"});
       return warnings;
     }
   } // namespace

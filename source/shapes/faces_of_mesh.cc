@@ -29,7 +29,8 @@ namespace Debond
 
   std::vector<
     std::pair<dealii::Triangulation<3>::active_cell_iterator, unsigned int>>
-  cells_at_contact_face(const dealii::Triangulation<3> &triangulation)
+  cells_at_contact_face(const dealii::Triangulation<3> &triangulation,
+                        const FacesOfMesh               which)
   {
     std::vector<
       std::pair<dealii::Triangulation<3>::active_cell_iterator, unsigned int>>
@@ -37,7 +38,9 @@ namespace Debond
     for (const auto &cell : triangulation.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
         if (cell->at_boundary(face) &&
-            cell->face(face)->boundary_id() == Boundary::contact)
+            (which == FacesOfMesh::all ||
+             (cell->face(face)->boundary_id() == Boundary::contact) ==
+               (which == FacesOfMesh::contact)))
           result.emplace_back(cell, face);
     return result;
   }
@@ -147,7 +150,8 @@ namespace Debond
   NurbsSurface
   contact_surface_of(const BodyMesh    &mesh,
                      const unsigned int degree,
-                     const Side         side)
+                     const Side         side,
+                     const FacesOfMesh  which)
   {
     using dealii::FETools::lexicographic_to_hierarchic_numbering;
     const auto function     = lexicographic_to_hierarchic_numbering<3>(degree),
@@ -161,7 +165,8 @@ namespace Debond
     std::vector<std::vector<unsigned int>>                  faces;
     ControlNet                                              net(3, 0);
     std::vector<double>                                     weights;
-    for (const auto &[cell, number] : cells_at_contact_face(mesh.triangulation))
+    for (const auto &[cell, number] :
+         cells_at_contact_face(mesh.triangulation, which))
       {
         const ContactFace face   = ContactFace::of(number, side);
         const auto        places = mesh.points_of_second_order(cell);

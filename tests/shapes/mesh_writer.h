@@ -143,14 +143,16 @@ write_msh(const Debond::BulkSpace &body,
 
 
 /** A coin of radius R and height H of cells in a square and four rings around
- *  it, halved @p n times, with its contact face at the height @p lift. */
+ *  it, halved @p n times, with its contact face at the height @p lift, @p
+ * within a radius; the ring around that has no name. */
 inline void
 write_coin(const std::string &filename,
            const double       R,
            const double       H,
            const unsigned int n,
            const unsigned int order,
-           const double       lift = 0.)
+           const double       lift   = 0.,
+           const double       within = 1e9)
 {
   using namespace dealii;
   Triangulation<2> disk;
@@ -166,7 +168,9 @@ write_coin(const std::string &filename,
   for (const auto &face : coin.active_face_iterators())
     if (face->at_boundary())
       face->set_boundary_id(
-        face->center()[2] < 1e-9 * H        ? Debond::Boundary::contact :
+        face->center()[2] < 1e-9 * H &&
+            std::hypot(face->center()[0], face->center()[1]) < within ?
+          Debond::Boundary::contact :
         face->center()[2] > (1. - 1e-9) * H ? Debond::Boundary::held :
                                               Debond::Boundary::free);
   // each cell stands on one of the disk

@@ -303,6 +303,10 @@ faces_at_start()
       faces_of("in the bone", {file[0], "Implant/Mesh file=low.msh"}).overlap -
       0.1),
     1e-12);
+  write_coin("middle.msh", 2.5, 3., 1, 1, 0., 1.9);
+  faces_of("a ring left out", {file[0], "Implant/Mesh file=middle.msh"});
+  write_coin("above.msh", 2.5, 3., 1, 1, 0.1);
+  faces_of("a coin above its bone", {file[0], "Implant/Mesh file=above.msh"});
   // a segment of the disk
   report("area beside the bone",
          std::abs(faces_of("half beside it", {"Chuck/Translation x/Value=6.5"})

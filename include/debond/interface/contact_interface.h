@@ -400,6 +400,11 @@ namespace Debond
       return at_start;
     }
 
+    /** Area of the faces of an implant from a file that lie on the bone, up to
+     *  facets, but are not in contact [mm^2]. */
+    double
+    area_left_out() const;
+
     /** Reference area of the implant's contact face by quadrature weights
      * [mm^2]. */
     double

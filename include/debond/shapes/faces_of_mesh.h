@@ -29,16 +29,28 @@ namespace Debond
     }
   };
 
-  /** Cells that have a face on the contact boundary, and its number, in the
-   *  order of the surface elements of contact_surface_of(). */
+  /** Which faces of the boundary. */
+  enum class FacesOfMesh
+  {
+    contact,
+    others,
+    all
+  };
+
+  /** Cells that have a face there, and its number, in the order of the surface
+   *  elements of contact_surface_of(). */
   std::vector<
     std::pair<dealii::Triangulation<3>::active_cell_iterator, unsigned int>>
-  cells_at_contact_face(const dealii::Triangulation<3> &triangulation);
+  cells_at_contact_face(const dealii::Triangulation<3> &triangulation,
+                        FacesOfMesh which = FacesOfMesh::contact);
 
-  /** The contact face of a body from a file: a patch for each face of its
-   *  cells, of degree 1 (bilinear) or 2, which passes through the four or nine
-   *  nodes of the face. */
+  /** The contact face of a body from a file, or others: a patch for each face
+   *  of its cells, of degree 1 (bilinear) or 2, which passes through the four
+   * or nine nodes of the face. */
   NurbsSurface
-  contact_surface_of(const BodyMesh &mesh, unsigned int degree, Side side);
+  contact_surface_of(const BodyMesh &mesh,
+                     unsigned int    degree,
+                     Side            side,
+                     FacesOfMesh     which = FacesOfMesh::contact);
 } // namespace Debond
 #endif

@@ -84,12 +84,11 @@ namespace Debond
 
 
   // The law is asked at the updated sliding distance, Eq. (32), at the end of
-  // the step. Asked at g_s^n it would lag behind, in 50 steps of the main scene
-  // by 4 % of the largest torque where it falls. The traction is the limit t_t
-  // = (L + eta V) tau, Eq. (30), V being the distance over the duration of the
-  // step. What the gap is more than the elastic t_t / eps_t must have no part
-  // in the surface, Eq. (29); derivatives take all of t for t_t, as -p n has
-  // none.
+  // the step. At g_s^n it would lag behind: 50 steps of the main scene by 4 %
+  // of the largest torque. The traction is the limit t_t = (L + eta V) tau,
+  // Eq. (30), V being the distance over the duration of the step. What the gap
+  // is more than the elastic t_t / eps_t must have no part in the surface,
+  // Eq. (29); derivatives take all of t for t_t, as -p n has none.
   inline void
   SlipEquations::find_traction()
   {

@@ -677,8 +677,9 @@ namespace Debond
     tangent_is_gathered = false;
     // how far things have moved must be known before the positions are replaced
     const Eigen::Matrix3d &Q      = configuration.side[master_side()].frame;
+    const Eigen::Matrix3d  old_Q  = slave == Side::bone ? accepted_frame : Q;
     const double           moved  = motion(configuration);
-    const ControlNet       before = accepted_positions[slave];
+    const NodalSums        before = accepted_positions;
     const RigidMotion      chuck({accepted_frame, accepted_centre},
                             Place::of_implant(configuration));
     for (const Side side : both_sides)
@@ -699,7 +700,8 @@ namespace Debond
             point.clearance -= moved;
             continue;
           }
-        if (point.trial.state.status != PointStatus::open)
+        const ContactPointResult &trial = point.trial;
+        if (trial.state.status != PointStatus::open)
           works.add(point, *law.joint, mode_now, Q);
         else if (point.accepted.status != PointStatus::open)
           works.add_opening(
@@ -707,11 +709,50 @@ namespace Debond
             law,
             mode_now,
             Q,
-            opening_motion(point, configuration, chuck, before));
+            opening_motion(point, configuration, chuck, before[slave]));
+        // With unequal stiffnesses the tractions on both faces are not along
+        // the gap: the offset m = g - t / eps_t is along the normal [mm]. Where
+        // that turns this couple works, which no potential has. It is
+        // dissipated with the slip: doc/explanation/contact.md, Energies.
+        if ((!master_is_flat || Q != old_Q) &&
+            trial.state.status != PointStatus::open &&
+            point.accepted.status != PointStatus::open)
+          {
+            const PointStart start = point.begin(*law.joint, mode_now);
+            const double     h     = point.accepted.normal_gap,
+                         eps_t     = law.tangential_penalty,
+                         height    = h + point.gap_at_start;
+            const NodalSums &now   = accepted_positions;
+            const auto gap = [&](const NodalSums &at, const SurfaceBasis &y) {
+              return Eigen::Vector3d(interpolate(point.basis, at[slave]) -
+                                     interpolate(y, at[master_side()]));
+            };
+            const auto &old_basis =
+              slides(trial.state.status) ? trial.old_basis : trial.basis;
+            const Eigen::Vector3d old_t = old_Q * point.accepted_traction,
+                                  m     = gap(now, trial.basis) -
+                                      trial.traction / eps_t,
+                                  along_n =
+                                    gap(before, old_basis) - old_t / eps_t;
+            const double p    = law.joint->respond(start, h, 0.).pressure;
+            double       work = 0.;
+            if (height != 0. && m.norm() > mode_now.touch_tolerance)
+              work = m.dot(old_t) - (1. + p / (eps_t * height)) *
+                                      along_n.dot(trial.tangential_traction);
+            if (const CohesiveShare *const share = held_share(point))
+              {
+                const Eigen::Vector3d old_gap = old_Q * share->gap;
+                work +=
+                  share->stiffness_by_damage * (point.accepted.damage - 1.) *
+                    old_gap.dot(gap(now, share->basis) - share->bears) -
+                  share->traction.dot(gap(before, share->basis) - old_gap);
+              }
+            for (double *const sum : {&works.dissipation, &works.friction})
+              *sum += 0.5 * point.JxW * work;
+          }
         // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
         // with: tangential traction and pressure [MPa], stored energy [N/mm].
-        const ContactPointResult &trial = point.trial;
-        point.accepted                  = trial.state;
+        point.accepted          = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =
           Q.transpose() * trial.viscous_traction;

@@ -282,6 +282,14 @@ namespace Debond
               outcome = projection.faces ?
                           problem.solve(projection.xi, result) :
                           SlipOutcome::left_patch;
+            // What viscosity carries ends at once where the pressure does. A
+            // point that climbs as it slides may find no place on either side
+            // of that: it has come to p = 0, and opens.
+            const double g_n = projection.height - mode.gap_at_start;
+            if (outcome == SlipOutcome::not_found && projection.faces &&
+                friction.viscous > 0. &&
+                g_n >= law.joint->reach(friction.start, 0.))
+              return open(g_n);
           }
         // Closed where it has come to: it slides. xi_hat is new, report() adds
         // g_s and traction. The solution of a law that went below mu = 0 would
@@ -305,9 +313,8 @@ namespace Debond
         // Solved with an open gap, or beyond the edge: open. Not found: an open
         // point stands in for the result, marked as failed, so that the
         // iteration is given up and the step made smaller.
-        const bool failed = outcome == SlipOutcome::not_found;
-        open(failed ? 0. : g_n);
-        result.failed = failed;
+        open(outcome == SlipOutcome::not_found ? 0. : g_n);
+        result.failed = outcome == SlipOutcome::not_found;
         if (outcome == SlipOutcome::left_patch)
           result.path_to_edge = end.distance;
       }

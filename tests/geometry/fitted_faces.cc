@@ -5,6 +5,7 @@
 
 #include <debond/geometry/surface_geometry.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "checks.h"
+#include "driven_scene.h"
 
 using namespace Debond;
 

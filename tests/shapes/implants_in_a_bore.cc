@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include "checks.h"
+#include "driven_scene.h"
 #include "uniform_strain.h"
 
 using namespace Debond;

@@ -12,10 +12,11 @@ import _debond
 
 from . import intervals
 from .errors import RunError
+from .executors import check_workers
 from .experiment import RIG
 from .files import csv_text, say, write_whole
 from .fit import fit_problem, problem_of
-from .measurement import rows_in_words
+from .measurement import rows_in_words, unit_doubt
 from .page import write_page_if_possible
 from .problem import Runs
 from .scene import Scene
@@ -174,10 +175,8 @@ def why_it_does_not_fit(done) -> str:
         return ""
     curve, doubts = done.optima[0].curve, ""
     for series in problem.series:
-        fitted = abs(curve[series.slice]).max()
-        if not 0.5 < series.scale / fitted < 2:
-            doubts += (f"; the largest {series.name} is {series.scale:.4g} {series.column.unit} in the file and {fitted:.4g} in the fit: is "
-                       "its unit right?")
+        doubt = unit_doubt(series.name, series.column.unit, series.scale, abs(curve[series.slice]).max(), "fit", 2)
+        doubts += doubt and "; " + doubt
     opposite = problem.measured @ curve < 0
     return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more "
             f"than Calibration / Largest misfit, {100 * largest:.3g} %" + doubts
@@ -189,6 +188,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     """Finds the unknowns <<...>> of a scene with `Task = calibrate` from measured curves, writes into its directory as the
     program does, and returns what calibration.json holds. One that was interrupted goes on. executor: as of fit(). Raises
     SceneError, or RunError if nothing fits."""
+    check_workers(executor, threads, "threads", say)
     scene = scene if isinstance(scene, Scene) else Scene(scene)
     problem = problem_of(scene)
     directory = problem.values["Output / Directory"]

@@ -14,9 +14,10 @@ import numpy
 from _debond import CurveComparison
 
 from .ensemble import torques_at
-from .errors import InputError
+from .errors import InputError, path_of
 from .files import say
 from .measured import read_measured, read_measured_and_say
+from .measurement import unit_doubt
 from .page_data import curve_file, curve_columns, read_json, read_table, rows_of, split_unit, varied_in
 
 
@@ -39,6 +40,15 @@ def _axes(directory):
     return curve_columns(next(filter(None, (read_json(place + "/summary.json") for place in places)), {}))
 
 
+def _remarks(computed, measured, axes, comparison):
+    """What may be wrong with the measured file: what the comparison says, and a unit that is off by less than it asks for."""
+    places = computed[0]  # the run may go on
+    there = abs(computed[1][(places >= measured[0].min()) & (places <= measured[0].max())]).max(initial=0)
+    doubt = unit_doubt(axes[1], split_unit(axes[1])[1], abs(measured[1]).max(), there, "run", 5) if comparison.rows_used and there else ""
+    asked = any("is it in N" in text for text in comparison.remarks)
+    return ["warning: " + text for text in [*comparison.remarks, *[doubt] * bool(doubt and not asked)]]
+
+
 def _table(filename):
     """Rows {column: text} of a table of a study or an ensemble, each behind what is varied: "Bone / Size = 8; ..."."""
     table = read_table(filename)
@@ -52,12 +62,13 @@ def _compare_variants(directory, axes, measured, found):
         name = "variant-" + row["variant"].zfill(3)
         curve = curve_file(directory + "/" + name)
         if os.path.exists(curve):
-            variants.append((name, varied, CurveComparison(read_measured(curve, axes), measured, *axes)))
+            computed = read_measured(curve, axes)
+            variants.append((name, varied, CurveComparison(computed, measured, *axes), computed))
     # what is not a number comes last
     variants.sort(key=lambda variant: numpy.nan_to_num(variant[2].difference_mean, nan=numpy.inf))
-    found.runs.update((name, comparison) for name, _, comparison in variants)
-    lines = ["warning: " + remark for _, _, closest in variants[:1] for remark in closest.remarks]
-    lines += [f"{comparison.text()}: {name}, {varied}" for name, varied, comparison in variants]
+    found.runs.update((name, comparison) for name, _, comparison, _ in variants)
+    lines = [remark for _, _, closest, computed in variants[:1] for remark in _remarks(computed, measured, axes, closest)]
+    lines += [f"{comparison.text()}: {name}, {varied}" for name, varied, comparison, _ in variants]
     n_without = len(rows) - len(variants)
     return lines + [f"{n_without} of {len(rows)} variants have no curve"] * (n_without > 0)
 
@@ -81,9 +92,9 @@ def _compare_band(directory, measured, found):
 def compare(directory, curve, columns=()) -> Comparisons:
     """Compares the curves in `directory`, of a run, a study or an ensemble, with the measured one in the file `curve`. columns:
     of that file, as of read_measured(). Raises InputError."""
-    directory, curve, found = os.fspath(directory), os.fspath(curve), Comparisons()
+    directory, curve, found = path_of(directory, "directory"), path_of(curve, "curve"), Comparisons()
     axes = _axes(directory)
-    measured, said = read_measured_and_say(curve, axes, columns, "--compare", "--columns")
+    measured, said, _ = read_measured_and_say(curve, axes, columns, "--compare", "--columns")
     own, is_study = curve_file(directory), os.path.exists(directory + "/study.csv")
     if not is_study and not os.path.exists(own):
         raise InputError(f"debond: --compare {directory}: there are no results in this directory, neither torque.csv nor "
@@ -97,9 +108,10 @@ def compare(directory, curve, columns=()) -> Comparisons:
         if os.path.exists(directory + "/ensemble.csv"):
             lines += _compare_band(directory, measured, found)
     else:
-        run = found.runs[""] = CurveComparison(read_measured(own, axes), measured, *axes)
+        computed = read_measured(own, axes)
+        run = found.runs[""] = CurveComparison(computed, measured, *axes)
         numbers = f" ({run.rows_used} rows; e_mp {100 * run.e_mp:.3g} %, e_rel {100 * run.e_rel:.3g} %)"
-        lines += [f"{directory}: {run.text()}{numbers if run.rows_used else ''}"] + ["warning: " + text for text in run.remarks]
+        lines += [f"{directory}: {run.text()}{numbers if run.rows_used else ''}"] + _remarks(computed, measured, axes, run)
     found.text = "\n".join(lines) + "\n"
     return found
 

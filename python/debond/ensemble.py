@@ -11,7 +11,7 @@ from typing import Any, List, NamedTuple
 
 import numpy
 
-from .errors import InputError
+from .errors import InputError, path_of
 from .files import csv_text, say, write_whole
 from .measured import read_measured
 from .page_data import curve_file, n_rows, read_table, varied_in
@@ -137,7 +137,7 @@ def ensemble(directory) -> Ensemble:
     or a file of it cannot be read, ImportError without pandas."""
     import pandas
 
-    *tables, notes = _tables(os.fspath(directory))
+    *tables, notes = _tables(path_of(directory, "directory"))
     return Ensemble(*(pandas.read_csv(io.StringIO(csv_text(*table)), float_precision="round_trip") for table in tables), notes)
 
 

@@ -1,6 +1,9 @@
 """What debond raises: mistakes of the user, and runs that could not be finished."""
 
 
+import os
+
+
 class InputError(ValueError):
     """Anything wrong with what a user gave: a scene, a file, a call. The text is one line; `entry` ("Interface / Sliding
     threshold"), `value` and `place` ("scene.prm:12") say where, as far as they are known."""
@@ -17,6 +20,23 @@ class InputError(ValueError):
 
 class SceneError(InputError):
     """A mistake in a scene or in a call."""
+
+
+def expect(is_so: bool, what: str, value, expected: str) -> None:
+    """Of an argument of a call. Raises SceneError."""
+    if not is_so:
+        raise SceneError(f"{what}: {value!r:.60}: expected {expected}")
+
+
+def expect_count(value, what: str) -> None:
+    """Of threads or processes. Raises SceneError."""
+    expect(isinstance(value, int) and value >= 1, what, value, "a whole number, 1 or more")
+
+
+def path_of(value, what: str, expected: str = "the name of a file") -> str:
+    """The text of a name of a file or directory. Raises SceneError."""
+    expect(isinstance(value, (str, os.PathLike)), what, value, expected)
+    return os.fspath(value)
 
 
 class RunError(RuntimeError):

@@ -4,11 +4,11 @@ import multiprocessing
 import os
 import signal
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
-from typing import List, Union
+from typing import Iterable, List, Mapping, Union
 
 import _debond
 
-from .errors import InputError
+from .errors import InputError, expect, expect_count
 from .scene import Result, Scene
 
 DIED = "the process that worked on it died"
@@ -64,6 +64,14 @@ def results_of(function, tasks, executor=None, n_jobs=1, say=lambda name, result
     return {name: results.get(name, RuntimeError(DIED)) for name in tasks}
 
 
+def check_workers(executor, n, what, say=print):
+    """Raises SceneError if `executor` is none of concurrent.futures, `n` processes or threads, called `what`, are no number, or
+    `say` is no function."""
+    expect(executor is None or hasattr(executor, "submit"), "executor", executor, "one of concurrent.futures, or none")
+    expect(callable(say), "say", say, "a function of a text")
+    expect_count(n, what)
+
+
 def _run_text(task):
     """Rows of a scene that is given as a text, and where its files are."""
     text, work = task
@@ -76,6 +84,9 @@ def run_many(scenes, executor=None, *, base=None, jobs: int = 1) -> List[Union[R
 
     scenes: Scene objects, or entries {"Subsection/Entry": value} that change `base`, a Scene or the name of one; without
     it the defaults. executor: of concurrent.futures; jobs: processes, if there is none."""
+    expect(isinstance(scenes, Iterable) and not isinstance(scenes, (str, bytes, Mapping)), "scenes", scenes,
+           "a list of Scenes or of dictionaries of entries")
+    check_workers(executor, jobs, "jobs")
     scenes = list(scenes)  # they keep tables of laws
     results, tasks = {}, {}
     for i, one in enumerate(scenes):

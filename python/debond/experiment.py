@@ -238,12 +238,7 @@ class Experiment:
         if self.over.kind == "position" and rig[self.rigs[0][1]] != 0:
             rows = _with_rows_without_load(rows, self.over.load)
         x, *curves = (self._shown(i, column, rows, rig) for i, column in enumerate((self.over, *self.columns)))
-        branch = measurement.branches_of(x, measured.least_turn)
-        begins = measurement.direction_of(x, branch), measurement.direction_of(measured.over, measured.branch)
-        if begins[0] * begins[1] < 0 and branch[-1] > measured.branch[-1]:
-            branch = branch - 1  # a bond is pressed before it is pulled, and the file begins with the pull
-        if len(measured.branch) and branch[-1] < measured.branch[-1]:
-            raise RunError(f"{measured.file} turns back {measured.branch[-1]} times, the computed curve {branch[-1]} times")
+        branch = measurement.branches_like(x, (measured.over, measured.branch), measured.least_turn)
         result = numpy.empty((len(self.columns), len(measured.over)))
         self.n_beyond, self.ends_at = 0, x[-1]
         for b in numpy.unique(measured.branch):

@@ -19,7 +19,8 @@ from scipy import stats
 import _debond
 
 from . import intervals, known, noise
-from .errors import RunError
+from .errors import RunError, path_of
+from .executors import check_workers
 from .experiment import Experiment
 from .measurement import stated_noise
 from .problem import Optimum, Problem, Runs
@@ -175,7 +176,8 @@ def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=
     scene: a Scene or the name of a file. executor: of concurrent.futures, which makes the runs: processes here, or those of
     mpi4py.futures or Dask. threads: without an executor. evaluations: a file that keeps the runs, so that a fit that was
     interrupted goes on. say: a function that is told what is going on. Raises SceneError, or RunError if nothing fits."""
-    return fit_problem(problem_of(scene, Runs(executor, threads, evaluations)), say)
+    check_workers(executor, threads, "threads", say)
+    return fit_problem(problem_of(scene, Runs(executor, threads, evaluations and path_of(evaluations, "evaluations"))), say)
 
 
 def fit_problem(problem, say=lambda text: None) -> "Fit":

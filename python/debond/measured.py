@@ -22,7 +22,7 @@ import numpy
 from .errors import InputError, shortened
 from .files import say
 from .layout import Table, filled, remark_on, value_of, with_plain_marks
-from .units import EXAMPLES, UNITS, unit_in, why_ambiguous
+from .units import EXAMPLES, UNITS, unit_in, unit_text_in, why_ambiguous
 
 CURVE_ENTRY, COLUMNS_ENTRY = "Output / Reference curve", "Output / Reference columns"
 _LARGEST_MB = 200
@@ -38,9 +38,14 @@ def is_turned(item):
     return re.search(r"[\[(]\s*-", item) is not None
 
 
+def turned(item):
+    """The choice of the same column, as of read_measured_and_say(), with its values of the other sign."""
+    return item.replace("[-", "[") if is_turned(item) else item.replace("[", "[-")
+
+
 def _chosen_column(table, item, quantity, refuse):
-    """Number from 0, factor and what is said of the unit of the column that is meant by `item`: a name or a number from 1, with
-    its unit in brackets, if that is given, behind a minus if values of the other sign are meant."""
+    """Number from 0, factor, what is said of the unit, and what names it, of the column that is meant by `item`: a name or a
+    number from 1, with its unit in brackets, if that is given, behind a minus if values of the other sign are meant."""
     name, bracket = _plain_name(item), re.sub(r"^[^\[(]*", "", item)
     called = [i for i, other in enumerate(table.names) if name in (other, _plain_name(other))]
     if len(called) > 1:
@@ -55,14 +60,14 @@ def _chosen_column(table, item, quantity, refuse):
     if unit is None or unit.quantity != quantity:
         why = why_ambiguous(says)
         refuse(f"the column '{name}' needs a unit, {UNITS[quantity]}, in brackets behind its name{why and f' ({why})'}")
-    return at, -unit.factor if is_turned(item) else unit.factor, bracket and " as " + bracket
+    return at, -unit.factor if is_turned(item) else unit.factor, bracket and " as " + bracket, says
 
 
 def _recognised_column(table, name, quantity, example, columns_entry):
     """The same of the column called `name`, else of the only one with a unit of its quantity. example: of a choice."""
     units = [unit_in(other) for other in table.names]
-    found = ([(i, 1.0, "") for i, other in enumerate(table.names) if other == name] or
-             [(i, unit.factor, "") for i, unit in enumerate(units) if unit and unit.quantity == quantity])
+    found = ([(i, 1.0, "", name) for i, other in enumerate(table.names) if other == name] or
+             [(i, unit.factor, "", table.names[i]) for i, unit in enumerate(units) if unit and unit.quantity == quantity])
     if len(found) != 1:
         choice = f"'set {columns_entry.rsplit('/ ', 1)[-1]} = {example}'"
         if columns_entry.startswith("--"):
@@ -142,12 +147,14 @@ def texts_of(filename, refuse) -> List[Tuple[str, str]]:
 
 
 def _read_table(filename, refuse):
-    """The table in a file, and the sheet that it is in, "sheet 'A', " or nothing."""
+    """The table in a file, and the sheet that it is in, "sheet 'A', " or nothing, and whether others have one, too."""
     sheets = [(name, with_plain_marks(text)) for name, text in texts_of(filename, refuse)]
     if [name for name, _ in sheets] == [""]:
         return Table(sheets[0][1], refuse), ""
-    name, text = ([sheet for sheet in sheets if Table.has_rows(sheet[1], "\t")] or sheets or [("", "")])[0]
-    return Table(text, lambda why: refuse(f"sheet '{name}': {why}"), "\t"), f"sheet '{name}', "
+    full = [sheet for sheet in sheets if Table.has_rows(sheet[1], "\t")]
+    name, text = (full or sheets or [("", "")])[0]
+    others = f"the first of {len(full)} with numbers, " * (len(full) > 1)
+    return Table(text, lambda why: refuse(f"sheet '{name}': {why}"), "\t"), f"sheet '{name}', {others}"
 
 
 def _values_of(table, found):
@@ -159,7 +166,7 @@ def _values_of(table, found):
             table.refuse(f"line {number}: {n} values for {table.width} columns: remove the line if it is not part of the "
                          "table, or separate with semicolons if a comma is that of a number")
         row = []
-        for at, factor, _ in found:
+        for at, factor, *_ in found:
             item = items[at] if at < n else ""
             value = value_of(item)
             if value is None:
@@ -171,8 +178,9 @@ def _values_of(table, found):
 
 
 def read_measured_and_say(filename, wanted: Sequence[str], columns: Union[str, Sequence[str]] = (), entry: str = CURVE_ENTRY,
-                          columns_entry: str = COLUMNS_ENTRY) -> Tuple[numpy.ndarray, str]:
-    """As read_measured(), and which columns have been read, for people: "column 1 'angle [deg]', column 3 as [-N m]"."""
+                          columns_entry: str = COLUMNS_ENTRY) -> Tuple[numpy.ndarray, str, List[str]]:
+    """As read_measured(), which columns have been read, for people: "column 1 'angle [deg]', column 3 as [-N m]", and a choice
+    of `columns` that reads the same."""
     filename = os.fspath(filename)
     if isinstance(columns, str):
         columns = columns.split(",") if columns.strip() else []
@@ -196,8 +204,8 @@ def read_measured_and_say(filename, wanted: Sequence[str], columns: Union[str, S
     else:
         example = ", ".join(f"{i} [{EXAMPLES[quantity]}]" for i, quantity in enumerate(quantities, 1))
         found = [_recognised_column(table, *column, example, columns_entry) for column in zip(wanted, quantities)]
-    said += ", ".join(f"column {at + 1}" + (f" '{table.names[at]}'" if table.names else "") + unit for at, _, unit in found)
-    return _values_of(table, found), said
+    said += ", ".join(f"column {at + 1}" + (f" '{table.names[at]}'" if table.names else "") + unit for at, _, unit, _ in found)
+    return _values_of(table, found), said, [f"{at + 1} [{unit_text_in(says)}]" for at, *_, says in found]
 
 
 def read_measured(filename, wanted: Sequence[str], columns: Union[str, Sequence[str]] = (), entry: str = CURVE_ENTRY,

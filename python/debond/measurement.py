@@ -7,7 +7,7 @@ import numpy
 import _debond
 
 from . import measured
-from .errors import InputError
+from .errors import InputError, RunError
 
 ENTRY = "Output / Reference curve"
 
@@ -72,6 +72,18 @@ def direction_of(values, branch):
     return next((1 if one > 0 else -1 for one in way if one != 0), 0)
 
 
+def branches_like(x, measured, least_turn):
+    """Between which turning points each place of a computed curve lies that is measured at the places, with the branches, of the
+    pair `measured`. Raises RunError if it turns less often."""
+    branch, (over, own) = branches_of(x, least_turn), measured
+    if direction_of(x, branch) * direction_of(over, own) < 0 and branch[-1] > own[-1]:
+        branch = branch - 1  # a bond is pressed before it is pulled, and the file begins with the pull
+    if len(own) and branch[-1] < own[-1]:
+        raise RunError(f"the measured curve turns back {own[-1]} times, the scene {branch[-1]} times: leave out the rows behind the turn, "
+                       "or let the load of the scene turn back, too")
+    return branch
+
+
 @dataclass
 class Measurement:
     """Rows of a measured curve, in the order of the file."""
@@ -89,14 +101,21 @@ class Measurement:
     counts: dict = field(default_factory=dict)  # rows of the file: all, used, and why others are not
     remarks: list = field(default_factory=list)  # what may be wrong with the file
     is_prescribed: bool = True  # by the scene, which so says how far it comes
+    said: str = ""  # which columns have been read
 
 
 def rows_in_words(measured):
     counts = measured.counts
     why = {"outside_windows": "outside the windows", "at_rest_or_turns": "where the row before was, or at a turn",
            "beyond_scene": "beyond what the scene comes to"}
-    return f"{measured.file}: {counts['used']} of {counts['rows']} rows are fitted" + "".join(
+    return f"{measured.file}: {measured.said}: {counts['used']} of {counts['rows']} rows are fitted" + "".join(
         f"; {counts[key]} are {text}" for key, text in why.items() if counts[key])
+
+
+def unit_doubt(name, unit, measured, computed, where, factor):
+    """A question if the largest values of a file and of a curve are further apart than by a factor; else nothing."""
+    return "" if computed / factor < measured < computed * factor else (
+        f"the largest {name} is {measured:.4g} {unit} in the file and {computed:.4g} in the {where}: is its unit right?")
 
 
 def given(text):
@@ -146,7 +165,14 @@ def _reach(places, largest_shift):
     return places.min() - margin - largest_shift, places.max() + margin + largest_shift
 
 
-def _used_rows(scene, values, columns, over, table, branch, reach, compliance):
+def _with_other_sign(choice, table, columns, over):
+    """What turns the places of a file, and the load along them if both go together: a load that moves something does work."""
+    work = ((table[1:, 1:] + table[:-1, 1:]) * numpy.diff(table[:, :1], axis=0)).sum(axis=0)
+    turns = [True, *(column.kind == "load" and column.component == over.component and w >= 0 for column, w in zip(columns, work))]
+    return ", ".join(measured.turned(item) if turn else item for item, turn in zip(choice, turns))
+
+
+def _used_rows(scene, values, columns, over, table, choice, branch, reach, compliance):
     """Numbers of the rows that are fitted, of each the window that it is in, and how many there are: all, used, and why others
     are not."""
     places = table[:, 0]
@@ -172,9 +198,14 @@ def _used_rows(scene, values, columns, over, table, branch, reach, compliance):
     counts = {"rows": len(places), "used": len(used), "outside_windows": int((window < 0).sum()),
               "at_rest_or_turns": int((window >= 0).sum() - could.sum()), "beyond_scene": int(could.sum() - len(used))}
     comes_to = f"what the scene comes to, {least:.4g} to {most:.4g} {over.unit}"
+    is_few = len(used) < max(1, float(values["Calibration / Smallest share of rows"]) * could.sum())
+    if is_few and 2 * (could & (-implant >= least) & (-implant <= most)).sum() > could.sum():
+        scene.refuse(ENTRY, f"{values[ENTRY]}: only {len(used)} {of} are in {comes_to}: they have the opposite sign. Turn the load of the "
+                            "scene round, or the values by a minus before their unit, 'set Reference columns = "
+                            f"{_with_other_sign(choice, table, columns, over)}'")
     if len(used) == 0:
         scene.refuse(ENTRY, f"{values[ENTRY]}: none {of} is in {comes_to}")
-    if len(used) < float(values["Calibration / Smallest share of rows"]) * could.sum():
+    if is_few:
         scene.refuse(ENTRY, f"{values[ENTRY]}: only {len(used)} {of} are in {comes_to}: is {over.name} in the unit that the file says, and does "
                             "the scene go as far as the test? Calibration / Windows leaves out what is not to be fitted, a smaller "
                             "Calibration / Smallest share of rows takes these rows")
@@ -217,10 +248,14 @@ def read(scene, values, columns, over, largest_shift=0.0, compliance=0.0):
     least_turn = _least_turn(planned)
     if not file:
         return _proposed(scene, columns, over, least_turn)
-    choice = given(values["Output / Reference columns"])
-    table = _read(scene, file, [column.name for column in (over, *columns)], choice)
+    table, said, choice = _read(scene, file, [column.name for column in (over, *columns)], given(values["Output / Reference columns"]))
     branch = branches_of(table[:, 0], least_turn)
-    used, window, counts = _used_rows(scene, values, columns, over, table, branch, _reach(planned, largest_shift), compliance)
+    used, window, counts = _used_rows(scene, values, columns, over, table, choice, branch, _reach(planned, largest_shift), compliance)
+    if planned is not None and compliance == 0:  # a soft machine may turn back by itself
+        try:
+            branches_like(planned, (table[used, 0], branch[used]), least_turn)
+        except RunError as error:
+            scene.refuse(ENTRY, str(error))
     scale = numpy.abs(table[:, 1:]).max(axis=0)  # of the whole file, so that a window changes no weight
     for column, largest in zip(columns, scale):
         if largest == 0:
@@ -228,14 +263,16 @@ def read(scene, values, columns, over, largest_shift=0.0, compliance=0.0):
     edges = [0, *(numpy.flatnonzero(numpy.diff(window)) + 1), len(used)]
     return Measurement(file, table[used, 0], table[used, 1:], branch[used], least_turn, scale,
                        _stated_noise(scene, values, columns, used, scale), [slice(a, b) for a, b in zip(edges, edges[1:])],
-                       used / max(1, len(table) - 1), [-1 if measured.is_turned(item) else 1 for item in (choice or "," * len(columns)).split(",")],
-                       counts, _remarks(file, over, table[:, 0], planned), planned is not None)
+                       used / max(1, len(table) - 1), [-1 if measured.is_turned(item) else 1 for item in choice],
+                       counts, _remarks(file, over, table[:, 0], planned), planned is not None, said)
 
 
 def _read(scene, file, names, columns, columns_entry="Output / Reference columns"):
-    """Columns of a measured file (rows x columns); what is wrong is said with the place of its entry."""
+    """Columns of a measured file (rows x columns), which they are, in words and as a choice; what is wrong is said with the place
+    of its entry."""
     try:
-        return measured.read_measured(file, names, columns, columns_entry=columns_entry).T
+        values, said, choice = measured.read_measured_and_say(file, names, columns, columns_entry=columns_entry)
+        return values.T, said, choice
     except InputError as error:
         if error.why is None:
             raise
@@ -250,7 +287,7 @@ def _stated_noise(scene, values, columns, used, scale):
         return numpy.tile(noise * scale, (len(used), 1)) if noise[0] > 0 else None
     if len(choice) != len(columns):
         scene.refuse(entry, "expected one for each of Curves")
-    sd = _read(scene, values[ENTRY], [column.name for column in columns], choice, entry)[used]
+    sd = _read(scene, values[ENTRY], [column.name for column in columns], choice, entry)[0][used]
     for row, c in numpy.argwhere(~(sd > 0))[:1]:
         scene.refuse(entry, f"{values[ENTRY]}: the standard deviation of {columns[c].name} in row {used[row] + 1} is "
                             f"{sd[row, c]:.4g}: expected a number above 0")

@@ -12,7 +12,7 @@ import numpy
 
 import _debond
 
-from .errors import SceneError
+from .errors import SceneError, expect, expect_count, path_of
 from .page import write_page_if_possible
 
 __version__ = _debond.version
@@ -80,7 +80,8 @@ def sample_law(law: Callable[[float], float], longest: float, tolerance: float =
             raise SceneError(f"law: phi({slip:g} mm) = {value}: expected a number from 0 to 1")
         return value
 
-    if not 0 < longest < numpy.inf:
+    expect(callable(law), "law", law, "a function of the sliding distance [mm]")
+    if not (isinstance(longest, (int, float, numpy.number)) and 0 < longest < numpy.inf):
         raise SceneError(f"law: distance {longest}: expected the sliding distance [mm] after which phi is constant, above 0")
     points = {slip: phi(slip) for slip in numpy.linspace(0, longest, 33)}
     if abs(points[0] - 1) > 1e-12:
@@ -116,9 +117,11 @@ class Scene:
             raise SceneError("a dictionary of entries is the second argument: Scene(None, {...}) or Scene(entries={...})")
         if filename is not None and text:
             raise SceneError("a scene is either a file or a text, not both")
+        expect(entries is None or isinstance(entries, Mapping), "entries", entries, 'a dictionary {"Subsection/Entry": value}')
+        expect(isinstance(text, str), "text", text, "a text in the language of scenes")
         overrides = [f"{name}={_text(value)}" for name, value in (entries or {}).items()]
         base = filename if isinstance(filename, Scene) else None
-        self._name = base._name if base else os.fspath(filename) if filename is not None else "scene"
+        self._name = base._name if base else "scene" if filename is None else path_of(filename, "scene", "the name of a file or a Scene")
         self._tables = list(base._tables) if base else []  # files live as long as a scene that needs them
         if law is not None:
             if not (isinstance(law, (tuple, list)) and len(law) == 2 and callable(law[0])):
@@ -163,8 +166,11 @@ class Scene:
             if any((own.name, own.value) == (entry, name) for own in self._entries):
                 self._entries = _debond.with_values(self._entries, {entry: self._new_table(text)})
 
-    def _read(self, team):
-        return _debond.Scene(self._entries, self._name, team)
+    def _read(self, team, changes=()):
+        for entry in self._entries:
+            if "<<" in entry.value:
+                entry.refuse("<<...>> stands for an unknown: debond.fit(scene) finds it, and so does debond.calibrate(scene), into a directory")
+        return _debond.Scene(_debond.changed(self._entries, list(changes)), self._name, team)
 
     def variants(self) -> List["Scene"]:
         """Of a study, whose entries hold several values {{a|b}}: the scenes of its variants, for run_many()."""
@@ -206,10 +212,8 @@ class Scene:
     def write(self, directory=None, force: bool = False, *, comm=None) -> str:
         """Runs it as the program does, into a directory with all files and report.html; returns the directory. force: as the
         option --force. comm: as of Simulation; the first of its processes writes."""
-        entries, team = self._entries, _team(comm)
-        if directory is not None:
-            entries = _debond.changed(entries, ["Output/Directory=" + os.fspath(directory)])
-        scene = _debond.Scene(entries, self._name, team)
+        team = _team(comm)
+        scene = self._read(team, [] if directory is None else ["Output/Directory=" + path_of(directory, "directory")])
         _debond.run_into_directory(scene, force, team)
         if scene.values["Output / Report"] == "true" and (comm is None or comm.rank == 0):
             write_page_if_possible(scene.values["Output / Directory"])
@@ -259,6 +263,7 @@ class Simulation:
 
     @staticmethod
     def _numbers(values) -> Dict[str, float]:
+        expect(values is None or isinstance(values, Mapping), "values of the chuck", values, 'a dictionary, as {"Rotation z": 0}')
         values = dict(sorted((values or {}).items()))
         for name, value in values.items():
             try:
@@ -347,6 +352,5 @@ def _checked(scene) -> Scene:
 
 def set_number_of_threads(n: int) -> None:
     """Of one run; results do not depend on it. At first it is 1. Raises SceneError."""
-    if not (isinstance(n, int) and n >= 1):
-        raise SceneError(f"{n!r:.60} threads: expected a whole number, 1 or more")
+    expect_count(n, "threads")
     _debond.set_number_of_threads(n)

@@ -19,8 +19,8 @@ from typing import Dict
 
 import _debond
 
-from .errors import InputError, RunError
-from .executors import results_of
+from .errors import InputError, RunError, path_of
+from .executors import check_workers, results_of
 from .files import csv_text, say, write_whole
 from .page import write_page_if_possible
 from .pooling import pool
@@ -99,10 +99,11 @@ def fit_specimens(template, table, directory=None, *, executor=None, jobs: int =
     the entries. Raises InputError if template or table are wrong, RunError if results cannot be written. What is wrong with one
     specimen is in `failures`."""
     scene = template if isinstance(template, Scene) else Scene(template)
-    table = os.fspath(table)
+    check_workers(executor, jobs, "jobs", say)
+    table = path_of(table, "table")
     specimens = read_specimens(table, scene._entries)
     said = {entry.name: entry.value for entry in scene._entries}
-    directory = os.fspath(directory or said.get("Output / Directory") or "output/specimens")
+    directory = path_of(directory or said.get("Output / Directory") or "output/specimens", "directory")
     results = _fit_all(specimens, scene, table, directory, executor, jobs, say)
     parameters, pooled = _tables(specimens, results)
     failures = {name: result["reason"] for name, result in results.items() if "reason" in result}

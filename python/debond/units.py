@@ -71,18 +71,23 @@ def find_unit(text: str) -> Optional[Unit]:
     return _METRIC.get(plain) or _OTHER.get(plain.lower())
 
 
-def unit_in(name: str) -> Optional[Unit]:
-    """The unit in the name of a column: in brackets, behind the last slash or underscore, or all or the last words of it. None
-    if there is none, or a factor."""
+def unit_text_in(name: str) -> str:
+    """What stands for the unit in the name of a column: in brackets, behind the last slash or underscore, or all or the last
+    words of it. Nothing if there is none, or a factor."""
     if re.search(r"10\^|[x*] ?10|×|[\])] *[x*/·]", name):
-        return None
+        return ""
     for opening, closing in ("[]", "()"):
         begin, end = name.rfind(opening), name.rfind(closing)
         if 0 <= begin < end:
-            return find_unit(name[begin + 1:end])
+            return name[begin + 1:end].strip()
     # "Force in lbf" is no moment: words that begin with "in" are a unit only as the whole name
     ends = [name[i:] for i in range(1, len(name)) if name[i - 1] in "/_ ," and not re.match("in[ _]", name[i:], re.I)]
-    return next(filter(None, map(find_unit, [name] + ends)), None)
+    return next(filter(find_unit, [name] + ends), "")
+
+
+def unit_in(name: str) -> Optional[Unit]:
+    """The unit that unit_text_in() finds; None if there is none."""
+    return find_unit(unit_text_in(name))
 
 
 def why_ambiguous(name: str) -> str:

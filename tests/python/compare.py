@@ -200,6 +200,17 @@ def check_pull():
            "pull: 6.8 % in the mean, 9.1 % at most, at 2 mm (2 rows; e_mp 9.09 %, e_rel 7.5 %)\n", found.text)
 
 
+def check_units():
+    """A unit that is another one than the file says is asked for; not so a test that ends early, or twice the torque."""
+    turns = numpy.linspace(0, 10, 41)
+    write("unit/torque.csv", "angle_deg,torque_Nmm\n" + "".join(f"{turn},{10 * turn}\n" for turn in turns))
+    for end, factor, unit, asks in ((10, 1, "N mm", 0), (10, 0.5, "N mm", 0), (1, 1, "N mm", 0), (10, 1, "N cm", 1), (10, 1e-3, "N cm", 1),
+                                    (1, 0.1, "N mm", 1), (10, 1e-3, "lbf in", 1), (10, 1, "N m", 1)):
+        write("unit.csv", f"angle [deg],torque [{unit}]\n" + "".join(f"{turn},{10 * turn * factor}\n" for turn in turns if turn <= end))
+        text = compare("unit", "unit.csv").text
+        expect(f"{factor} {unit} up to {end} degrees: {text}", asks, text.count("is its unit right?") + text.count("is it in N mm?"))
+
+
 def check_run():
     """The program computes the same measures of the same curves."""
     curve = os.path.join(scenes, "paper", "data", "closed_form_b_data_set_1.csv")
@@ -222,6 +233,7 @@ check_failure()
 check_remarks()
 check_program()
 check_pull()
+check_units()
 if debond:
     check_run()
 print("curves are compared as they should be")

@@ -224,6 +224,26 @@ def check_used_rows():
     write("deg.csv", {"phi [deg]": clean["angle_deg"] / 57.3, "M [N mm]": clean["torque_Nmm"]})
     problem = fits.problem_of(scene_of(TWO, "deg.csv"))
     report("radians that the file calls degrees are asked for", any("is it in deg?" in text for text in problem.done[0].remarks))
+    # what counts the other way; angles alone, where the torque is that of the scene
+    for torques, choice in ((-1, "1 [-deg], 2 [-N cm]"), (1, "1 [-deg], 2 [N cm]")):
+        write("other_way.csv", {"phi [deg]": -clean["angle_deg"], "M [N cm]": torques * clean["torque_Nmm"] / 10})
+        try:
+            fits.problem_of(scene_of(TWO, "other_way.csv"))
+            said = ""
+        except debond.SceneError as error:
+            said = str(error)
+        report(f"the other sign is said, {choice}", said.endswith(f"'set Reference columns = {choice}'") and "have the opposite sign" in said, said)
+        again = fits.problem_of(debond.Scene(scene_of(TWO, "other_way.csv"), {"Output/Reference columns": choice}))
+        report("and that choice reads the scene's curve", numpy.allclose(again.measured, clean["torque_Nmm"], 1e-12, 1e-12), again.measured)
+    write("back.csv", {**clean, "angle_deg": numpy.minimum(clean["angle_deg"], 12 - clean["angle_deg"])})
+    try:
+        fits.problem_of(scene_of(TWO, "back.csv"))
+        report("a curve that turns back, of a scene that does not, is refused before it is searched", False)
+    except debond.SceneError as error:
+        report("a curve that turns back, of a scene that does not, is refused before it is searched",
+               "turns back 1 times, the scene 0 times" in str(error), error)
+    turns = {"Chuck/Rotation z/Value": "10 * max(t - 1, 0) - 20 * max(t - 1.6, 0)", "Load steps/Steps": "1, 20"}
+    report("of one that does it is not", fits.problem_of(debond.Scene(scene_of(TWO, "back.csv"), turns)).done[0].measured.branch.max() == 1)
     write("Nm.csv", {"phi [deg]": clean["angle_deg"], "M [N m]": clean["torque_Nmm"] / 10})  # N cm
     why = why_it_does_not_fit(fit(TWO, "Nm.csv"))
     report("N cm that the file calls N m are asked for", "N mm in the file" in why and "is its unit right?" in why, why)

@@ -17,7 +17,7 @@ import numpy
 from debond import measured
 from debond.__main__ import main
 from debond.errors import InputError
-from debond.measured import read_measured
+from debond.measured import read_measured, read_measured_and_say
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LAB_FILES = os.path.join(HERE, "lab_files")
@@ -224,6 +224,8 @@ def check_workbooks():
     sheets = [(name, [CURVE, *rows]) for name, rows in (("Old", [[1, 7], [2, 8]]), ("New", [[0.5, 20], [1, 50]]))]
     for state in ("hidden", "veryHidden"):
         expect_values(workbook(*sheets, hidden={"Old": state}), CURVE, "", TWO_ROWS)
+    for hidden, words in (({"Old": "hidden"}, "sheet 'New', column 1"), ({}, "sheet 'Old', the first of 2 with numbers, column 1")):
+        assert read_measured_and_say(workbook(*sheets, hidden=hidden), CURVE)[1].startswith(words), f"several sheets: {words}"
     expect_refusal(written(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + 504 * b"\0", "book.xls"), CURVE, "", ["(.xls)", "as CSV"])
     ods = b"PK\x03\x04" + 26 * b"\0" + b"mimetypeapplication/vnd.oasis.opendocument.spreadsheet"
     expect_refusal(written(ods, "book.ods"), CURVE, "", ["(.ods): save it as .xlsx or as CSV"])

@@ -261,6 +261,43 @@ def check_mistakes():
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 1 + slip, 0.1)))
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 0.5, 0.1)))
     mistake(lambda: debond.Scene(text=coin, law=(lambda slip: 1 - slip if slip < 0.0875 else 1, 0.1)))
+    # an unknown is for fits, whatever is asked for
+    unknown = debond.Scene(text=coin, entries={"Task": "calibrate", "Interface/Friction coefficient broken": "<<0.4 in 0.1..1>>"})
+    error = mistake(unknown.run)
+    for ask in (lambda: unknown.write("unknown"), lambda: debond.Simulation(unknown), lambda: unknown.parameters, lambda: unknown.warnings):
+        check("  the same", types_of(ask) == (debond.SceneError, str(error)))
+    check("  the same of one of many", "debond.fit(scene)" in str(debond.run_many([unknown])[0]))
+
+
+def types_of(call):
+    """The class of what a call raises, and its text."""
+    try:
+        call()
+    except Exception as error:
+        return type(error), str(error)
+
+
+def check_types():
+    """Every function of the package answers an argument of a wrong type with one line that names it."""
+    print("Wrong types")
+    scene = debond.Scene(text=coin)
+    for name, calls in {
+            "scene": [lambda: debond.Scene(5), lambda: debond.fit(5), lambda: debond.calibrate(5), lambda: debond.fit_specimens(5, "a.csv")],
+            "entries": [lambda: debond.Scene(None, "x"), lambda: debond.Scene(scene, [1])],
+            "text": [lambda: debond.Scene(text=5)],
+            "scenes": [lambda: debond.run_many("x", base=scene), lambda: debond.run_many(5), lambda: debond.run_many({"Bone/Cells": 4})],
+            "jobs": [lambda: debond.run_many([], jobs="2"), lambda: debond.fit_specimens(scene, "a.csv", jobs=0)],
+            "threads": [lambda: debond.fit(scene, threads="2"), lambda: debond.calibrate(scene, 0), lambda: debond.set_number_of_threads(1.5)],
+            "executor": [lambda: debond.run_many([], 5), lambda: debond.fit(scene, executor=5), lambda: debond.calibrate(scene, executor=5)],
+            "say": [lambda: debond.fit(scene, say=5), lambda: debond.fit_specimens(scene, "a.csv", say="x")],
+            "evaluations": [lambda: debond.fit(scene, evaluations=5)],
+            "table": [lambda: debond.fit_specimens(scene, 5)],
+            "directory": [lambda: scene.write(5), lambda: debond.ensemble(5)],
+            "values of the chuck": [lambda: debond.Simulation(scene, drive=5), lambda: debond.Simulation(scene).advance("x")],
+            "law": [lambda: debond.sample_law(5, 1), lambda: debond.sample_law(lambda slip: 1, "1")]}.items():
+        said = [types_of(call) for call in calls]
+        check(f"  {name}", all(one and one[0] is debond.SceneError and one[1].startswith(name + ": ") and "expected " in one[1] and
+                             "\n" not in one[1] for one in said))
 
 
 def check_warnings():
@@ -328,3 +365,4 @@ check_more()
 check_calibration()
 check_defaults()
 check_mistakes()
+check_types()

@@ -28,11 +28,6 @@ def expect(is_so: bool, what: str, value, expected: str) -> None:
         raise SceneError(f"{what}: {value!r:.60}: expected {expected}")
 
 
-def expect_count(value, what: str) -> None:
-    """Of threads or processes. Raises SceneError."""
-    expect(isinstance(value, int) and value >= 1, what, value, "a whole number, 1 or more")
-
-
 def path_of(value, what: str, expected: str = "the name of a file") -> str:
     """The text of a name of a file or directory. Raises SceneError."""
     expect(isinstance(value, (str, os.PathLike)), what, value, expected)

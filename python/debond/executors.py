@@ -8,7 +8,7 @@ from typing import Iterable, List, Mapping, Union
 
 import _debond
 
-from .errors import InputError, expect, expect_count
+from .errors import InputError, expect
 from .scene import Result, Scene
 
 DIED = "the process that worked on it died"
@@ -69,7 +69,7 @@ def check_workers(executor, n, what, say=print):
     `say` is no function."""
     expect(executor is None or hasattr(executor, "submit"), "executor", executor, "one of concurrent.futures, or none")
     expect(callable(say), "say", say, "a function of a text")
-    expect_count(n, what)
+    expect(isinstance(n, int) and n >= 1, what, n, "a whole number, 1 or more")
 
 
 def _run_text(task):

@@ -109,7 +109,9 @@ def _with_chosen_steps(problem, start):
             problem.choose_steps(start)
         except RunError as error:
             return end or Optimum(start, why=str(error))
-        end = problem.minimise(start, False, near=end)
+        before, end = end, problem.minimise(start, False, near=end)
+        if end.why and before:
+            return before
         moved = (searched(end.values) - searched(start)) / intervals.sizes_of(problem.unknowns, start)
         if end.why or not any(problem.steps.values()) or abs(moved).max() < 0.2:
             break
@@ -130,6 +132,8 @@ def find_optima(problem, say=lambda text: None):
         good = [one.values for one in optima if one.cost <= 4 * optima[0].cost + 1e-12][:FOLLOWED_SLOWLY]
         optima = _follow(problem, good, False)
     elif not by_closed_form:
+        if closed:
+            say(f"Closed form: no optimum, after {time.time() - clock:.2g} s; Model = {model} searches alone")
         optima = _from_starts(problem, n_starts, FOLLOWED_SLOWLY if model == "finite elements" else FOLLOWED, False)
     if not optima:
         raise RunError("nothing was found: no unknowns that were tried give a curve. The last reason: " + problem.runs.last_failure)
@@ -194,8 +198,10 @@ class Fit:
         self.problem, self.optima, self.closed = problem, optima, closed
         self.warnings: List[str] = list(dict.fromkeys(text for experiment in problem.experiments for text in experiment.remarks))
         best = optima[0]
-        if not problem.why_no_closed_form:
+        if closed:
             problem.settle(best.values)
+        elif not problem.why_no_closed_form:
+            problem.settle_at_best(best.values)
         problem.steps = best.steps or problem.steps
         try:
             if best.derivatives is None:

@@ -38,11 +38,6 @@ def is_turned(item):
     return re.search(r"[\[(]\s*-", item) is not None
 
 
-def turned(item):
-    """The choice of the same column, as of read_measured_and_say(), with its values of the other sign."""
-    return item.replace("[-", "[") if is_turned(item) else item.replace("[", "[-")
-
-
 def _chosen_column(table, item, quantity, refuse):
     """Number from 0, factor, what is said of the unit, and what names it, of the column that is meant by `item`: a name or a
     number from 1, with its unit in brackets, if that is given, behind a minus if values of the other sign are meant."""

@@ -169,7 +169,7 @@ def _with_other_sign(choice, table, columns, over):
     """What turns the places of a file, and the load along them if both go together: a load that moves something does work."""
     work = ((table[1:, 1:] + table[:-1, 1:]) * numpy.diff(table[:, :1], axis=0)).sum(axis=0)
     turns = [True, *(column.kind == "load" and column.component == over.component and w >= 0 for column, w in zip(columns, work))]
-    return ", ".join(measured.turned(item) if turn else item for item, turn in zip(choice, turns))
+    return ", ".join(item.replace("[", "[-").replace("[--", "[") if turn else item for item, turn in zip(choice, turns))
 
 
 def _used_rows(scene, values, columns, over, table, choice, branch, reach, compliance):

@@ -154,6 +154,15 @@ class Problem:
         for experiment in self.done:
             experiment.settle(values)
 
+    def settle_at_best(self, values):
+        """The same where the search by runs has ended. If there is no closed form there, runs take its place from now on."""
+        try:
+            self.settle(values)
+            self.derivatives(values, True)
+            self._end(values, True, True)
+        except RunError as error:
+            self.why_no_closed_form = str(error)
+
     def curves(self, places, closed):
         """The predicted values (N) at each of several places, None where there are none."""
         if closed:
@@ -206,15 +215,19 @@ class Problem:
         return ends
 
     def derivatives(self, values, closed, free=None, share=0):
-        """Of the predicted values by what is searched (N x k), by central differences, see ends(). Raises RunError."""
+        """Of the predicted values by what is searched (N x k), by central differences, see ends(), at the edge of what can be
+        computed by those to one side. Raises RunError."""
         free = range(len(values)) if free is None else free
         places = [end for j in free for end in self.ends(values, j, closed, share)]
         curves = self.curves(places, closed)
         if any(curve is None for curve in curves):
-            raise RunError(self.runs.last_failure)
+            middle = self.curves([values], closed)[0]
+            places, curves = zip(*((values, middle) if curve is None else (place, curve) for place, curve in zip(places, curves)))
         result = numpy.empty((len(self.measured), len(free)))
         for i, j in enumerate(free):
             width = places[2 * i + 1][j] - places[2 * i][j]
+            if width == 0 or curves[2 * i] is None or curves[2 * i + 1] is None:
+                raise RunError(self.runs.last_failure)
             per_search = values[j] if self.unknowns.list[j].logarithmic else 1
             result[:, i] = (curves[2 * i + 1] - curves[2 * i]) / width * per_search
         return result
@@ -248,8 +261,11 @@ class Problem:
         if near is not None and near.derivatives is not None:
             place, J = near.values, near.derivatives[:, free]
         elif not self.why_no_closed_form:
-            self.settle(start)
-            values, _ = self._search(start, False, free, lambda at: self.derivatives(at, True, free), 8)
+            try:
+                self.settle(start)
+                values, _ = self._search(start, False, free, lambda at: self.derivatives(at, True, free), 8)
+            except RunError:  # of the closed form, which only leads; runs say below what they cannot do
+                pass
         for _ in range(rounds):
             if J is None:
                 place, J = values, self.derivatives(values, False, free)

@@ -12,7 +12,7 @@ import numpy
 
 import _debond
 
-from .errors import SceneError, expect, expect_count, path_of
+from .errors import SceneError, expect, path_of
 from .page import write_page_if_possible
 
 __version__ = _debond.version
@@ -352,5 +352,5 @@ def _checked(scene) -> Scene:
 
 def set_number_of_threads(n: int) -> None:
     """Of one run; results do not depend on it. At first it is 1. Raises SceneError."""
-    expect_count(n, "threads")
+    expect(isinstance(n, int) and n >= 1, "threads", n, "a whole number, 1 or more")
     _debond.set_number_of_threads(n)

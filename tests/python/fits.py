@@ -18,6 +18,8 @@ from scipy import signal, stats
 import debond
 from debond import intervals, noise
 from debond.calibrate import why_it_does_not_fit
+from debond.errors import RunError
+from debond.experiment import Experiment
 
 fits = importlib.import_module("debond.fit")  # the module, not the function
 warnings.simplefilter("error")
@@ -277,6 +279,32 @@ def check_failure():
         report(f"{measure}: a bond that fails in the test alone is not fitted", "no parameters of this scene fit" in why_it_does_not_fit(found))
         report(f"{measure}: intervals hold the best values", (found.lower <= found.values).all() and (found.values <= found.upper).all(),
                (found.lower, found.values, found.upper))
+
+
+def check_edges():
+    """Derivatives at the edge of what can be computed; fits by finite elements go on where the closed form says no."""
+    measured("clean.csv")
+    entries = {**TWO, I + "Characteristic slip distance": "<<a_s: 0.03 in 0.0001..0.1 log>>"}
+    problem = fits.problem_of(scene_of(entries, "clean.csv"))
+    lower, upper = 1e-4, 0.1  # the law softens too fast below some distance: there is no curve
+    while upper / lower > 1 + 1e-9:
+        middle = numpy.sqrt(lower * upper)
+        lower, upper = (middle, upper) if problem.curves([numpy.array([0.58, middle])], True)[0] is None else (lower, middle)
+    at, inside = (problem.derivatives(numpy.array([0.58, upper * factor]), True) for factor in (1, 1.001))
+    report("derivatives at an edge are those beside it, to 1 %", (abs(at - inside) < 0.01 * abs(inside).max(axis=0)).all() and lower > 1e-4, lower)
+
+    def says_no(experiment, values, by_closed_form=Experiment.by_closed_form):
+        if values[1] < least:
+            raise RunError("no closed form")
+        return by_closed_form(experiment, values)
+
+    Experiment.by_closed_form, before, found = says_no, Experiment.by_closed_form, []
+    for least in (0, 0.025, 1):  # nowhere, at the best values, everywhere
+        found.append(fit({**entries, "Model": "finite elements"}, "clean.csv", Starts=4))
+    Experiment.by_closed_form = before
+    for one, where in zip(found[1:], ("at the best values", "everywhere")):
+        report(f"finite elements find the same where there is no closed form {where}, to 1e-3", numpy.allclose(one.values, found[0].values, 1e-3)
+               and one.problem.runs.n_failures > 0, (one.values, found[0].values))
 
 
 def correlated(generator, n, rho):
@@ -623,6 +651,7 @@ def main():
         check_used_rows()
         check_held_load()
         check_failure()
+        check_edges()
         check_noise()
         check_words()
         check_exact_data()

@@ -15,6 +15,7 @@ Latin-1. Of a workbook (xlsx) the first sheet with numbers that is not hidden is
 import io
 import os
 import re
+import sys
 from typing import List, Mapping, Sequence, Tuple, Union
 
 import numpy
@@ -221,12 +222,14 @@ def main(filename: str, options: Mapping[str, str]) -> int:
     """Writes the columns of a measured table as plain CSV to the standard output; returns the exit code."""
     names = [name.strip() for name in options["--curves"].split(",")]
     try:
-        values = read_measured(filename, names, options["--columns"], options["--entry"], options["--columns-entry"])
+        values, said, _ = read_measured_and_say(filename, names, options["--columns"], options["--entry"], options["--columns-entry"])
     except InputError as error:
         if error.why is None or options["--entry"] == "FILE":
             raise
         # the program asks, and says it with the place of the entry
         say("\n".join((error.entry, error.value or "", error.why)))
         return 1
+    if "the first of" in said and options["--entry"] == "FILE":  # runs ask for each variant of a study
+        say(f"{filename}: {said}", sys.stderr)
     say("\n".join(",".join(row) for row in [names, *(map(repr, row) for row in values.T.tolist())]))
     return 0

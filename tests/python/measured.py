@@ -226,6 +226,7 @@ def check_workbooks():
         expect_values(workbook(*sheets, hidden={"Old": state}), CURVE, "", TWO_ROWS)
     for hidden, words in (({"Old": "hidden"}, "sheet 'New', column 1"), ({}, "sheet 'Old', the first of 2 with numbers, column 1")):
         assert read_measured_and_say(workbook(*sheets, hidden=hidden), CURVE)[1].startswith(words), f"several sheets: {words}"
+    assert "the first of 2" in output_of(path("book.xlsx"))[2], "the command does not name the sheet"
     expect_refusal(written(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + 504 * b"\0", "book.xls"), CURVE, "", ["(.xls)", "as CSV"])
     ods = b"PK\x03\x04" + 26 * b"\0" + b"mimetypeapplication/vnd.oasis.opendocument.spreadsheet"
     expect_refusal(written(ods, "book.ods"), CURVE, "", ["(.ods): save it as .xlsx or as CSV"])

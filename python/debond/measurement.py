@@ -197,18 +197,13 @@ def _used_rows(scene, values, columns, over, table, choice, branch, reach, compl
         scene.refuse("Calibration / Windows", f"{values[ENTRY]}: none {of} is in them")
     counts = {"rows": len(places), "used": len(used), "outside_windows": int((window < 0).sum()),
               "at_rest_or_turns": int((window >= 0).sum() - could.sum()), "beyond_scene": int(could.sum() - len(used))}
-    comes_to = f"what the scene comes to, {least:.4g} to {most:.4g} {over.unit}"
-    is_few = len(used) < max(1, float(values["Calibration / Smallest share of rows"]) * could.sum())
-    if is_few and 2 * (could & (-implant >= least) & (-implant <= most)).sum() > could.sum():
-        scene.refuse(ENTRY, f"{values[ENTRY]}: only {len(used)} {of} are in {comes_to}: they have the opposite sign. Turn the load of the "
-                            "scene round, or the values by a minus before their unit, 'set Reference columns = "
-                            f"{_with_other_sign(choice, table, columns, over)}'")
-    if len(used) == 0:
-        scene.refuse(ENTRY, f"{values[ENTRY]}: none {of} is in {comes_to}")
-    if is_few:
-        scene.refuse(ENTRY, f"{values[ENTRY]}: only {len(used)} {of} are in {comes_to}: is {over.name} in the unit that the file says, and does "
-                            "the scene go as far as the test? Calibration / Windows leaves out what is not to be fitted, a smaller "
-                            "Calibration / Smallest share of rows takes these rows")
+    if len(used) < max(1, float(values["Calibration / Smallest share of rows"]) * could.sum()):
+        why = (f"is {over.name} in the unit that the file says, and does the scene go as far as the test? Calibration / Windows leaves out "
+               "what is not to be fitted, a smaller Calibration / Smallest share of rows takes these rows")
+        if 2 * (could & (-implant >= least) & (-implant <= most)).sum() > could.sum():
+            why = ("they have the opposite sign. Turn the load of the scene round, or the values by a minus before their unit, 'set Reference "
+                   f"columns = {_with_other_sign(choice, table, columns, over)}'")
+        scene.refuse(ENTRY, f"{values[ENTRY]}: only {len(used)} {of} are in what the scene comes to, {least:.4g} to {most:.4g} {over.unit}: {why}")
     return used, window[used], counts
 
 

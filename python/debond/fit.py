@@ -80,21 +80,24 @@ def _follow(problem, starts, closed):
     for start in starts:
         if closed:
             problem.settle(problem.unknowns.starts)
-            end = _centred(problem, problem.minimise(start, closed))
+            end = _centred(problem, start)
         else:
             end = _with_chosen_steps(problem, start)
         ends.append(end)
     return problem.distinct(ends)
 
 
-def _centred(problem, end):
+def _centred(problem, start):
     """The closed form has the stiffness of the place that it was made exact at: there, until the fit stays there."""
+    end = problem.minimise(start, True)
     for _ in range(6):
         if end.why:
             break
         before = end.values
         problem.settle(before)
         end = problem.minimise(before, True)
+        if end.why:  # the edge of what can be computed has moved over it
+            end = problem.minimise(start, True)
         if numpy.linalg.norm(end.values - before) <= 1e-8 * numpy.linalg.norm(before):
             break
     return end

@@ -294,12 +294,17 @@ def check_edges():
     report("derivatives at an edge are those beside it, to 1 %", (abs(at - inside) < 0.01 * abs(inside).max(axis=0)).all() and lower > 1e-4, lower)
 
     def says_no(experiment, values, by_closed_form=Experiment.by_closed_form):
-        if values[1] < least:
+        is_settled = experiment._centre is not None and (experiment._centre[0] != experiment.unknowns.starts).any()
+        if values[1] < (least_settled if is_settled else least):
             raise RunError("no closed form")
         return by_closed_form(experiment, values)
 
     Experiment.by_closed_form, before, found = says_no, Experiment.by_closed_form, []
+    least, least_settled = 0, 0.0222  # the edge moves over the best values once the stiffness is that of these
+    moved = fit(entries, "clean.csv", Starts=4).values
+    report("of an edge that moves the search comes back to it, to 1 %", abs(moved[1] / 0.0222 - 1) < 0.01, moved)
     for least in (0, 0.025, 1):  # nowhere, at the best values, everywhere
+        least_settled = least
         found.append(fit({**entries, "Model": "finite elements"}, "clean.csv", Starts=4))
     Experiment.by_closed_form = before
     for one, where in zip(found[1:], ("at the best values", "everywhere")):

@@ -231,13 +231,7 @@ class Fit:
 
     def _find_intervals(self):
         problem, told = self.problem, self.told
-        if problem.measure != "least squares":
-            generator = numpy.random.default_rng(int(problem.values["Calibration / Seed"]))
-            ends = intervals.bootstrap(problem, self._best, self._derivatives, generator)
-            at = problem.unknowns.to_search(self.values)
-            finite = numpy.isfinite(told.half_widths)
-            told.lower, told.upper = (numpy.where(finite, at + end, one) for end, one in zip(ends, (told.lower, told.upper)))
-        else:
+        if problem.measure == "least squares":
             cheap = self.closed or not problem.why_no_closed_form
             nearby = intervals.nearby_curves(problem, self._best, self.closed)
             for j in intervals.profile_ends(problem, told, nearby, self._best, 40 if cheap else 12):
@@ -263,7 +257,7 @@ class Fit:
         robust = numpy.median(abs(difference)) / stats.norm.isf(0.25) / series.scale  # rows that are far off do not count
         smooth = numpy.sqrt(max(0, rms**2 - own.spectrum.min() * to_scale**2))
         return Misfit(series.name, compared.e_mp, compared.e_rel, rms, own, len(measured) / own.rows_per_value,
-                      own.sd * to_scale, F, chance, smooth, local, local / max(robust, 1e-300))
+                      own.sd * to_scale, F, chance, smooth, local, local / max(robust, 1e-6))
 
     @property
     def e_rel(self):
@@ -303,10 +297,12 @@ class Fit:
         self._warn_of_search()
 
     def _shift(self, curve):
-        """By how much the unknowns would change, over the half widths of their intervals, if the curve differed by this (N)."""
+        """By how much the unknowns would change, over the half widths of their intervals, if the curve differed by this (N). Those of
+        exact data are of rounding: a change of a millionth of the value is none."""
         told, result = self.told, numpy.zeros(len(self.values))
-        free = numpy.flatnonzero(told.free & numpy.isfinite(told.half_widths) & (told.half_widths > 0))
-        result[free] = numpy.linalg.lstsq(told.derivatives[:, free], self.problem.weights * curve, rcond=1e-7)[0] / told.half_widths[free]
+        free = numpy.flatnonzero(told.free & numpy.isfinite(told.half_widths))
+        widths = numpy.maximum(told.half_widths, 1e-6 * intervals.sizes_of(self.problem.unknowns, self.values))[free]
+        result[free] = numpy.linalg.lstsq(told.derivatives[:, free], self.problem.weights * curve, rcond=1e-7)[0] / widths
         return result
 
     def _warn_of_search(self):
@@ -341,7 +337,7 @@ class Fit:
     def _warn_of_noise(self):
         rms = sorted((misfit.rms, misfit.name) for misfit in self.misfits)
         if not self.problem.noise_is_known and rms[-1][0] > max(3 * rms[0][0], 1e-5):
-            self.warnings.append(f"residuals of {rms[-1][1]} are {rms[-1][0] / rms[0][0]:.2g} times those of {rms[0][1]}, over the "
+            self.warnings.append(f"residuals of {rms[-1][1]} are {rms[-1][0] / max(rms[0][0], 1e-6):.2g} times those of {rms[0][1]}, over the "
                                  "largest values: both count alike in the fit; Calibration / Noise for each curve makes it better")
         if self.problem.noise_is_known:
             residuals = self.problem.weights * (self._best.curve - self.problem.measured)
@@ -413,7 +409,7 @@ class Fit:
         at, lower, upper = (unknowns.to_search(v) for v in (self.values, unknowns.lower, unknowns.upper))
         _, finite, _ = intervals.inverse(told.derivatives)
         for j, name in enumerate(self.names):
-            if not told.free[j] or not numpy.isfinite(told.half_widths[j]):
+            if not told.free[j] or not 0 < told.half_widths[j] < numpy.inf:
                 continue
             unit = (told.half_widths[j] / 1.96) ** 2 / finite[j, j]
             rows = []

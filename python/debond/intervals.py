@@ -8,7 +8,8 @@ whether the noise is white or not. V is estimated from the residuals (noise.py),
 error of an estimate is a mixture of Student's distributions, whose quantile is t sqrt(C_jj), C_jj that of the mean spectrum. An
 interval ends where the sum of squares, with the other unknowns at their best, has grown by t^2 C_jj/(J'J)^-1_jj: for a curve
 that is linear in the unknowns that is +- t sqrt(C_jj). Where it is not, J is that of the end, if a closed form gives it: the
-question is what the noise would do if the truth were there.
+question is what the noise would do if the truth were there. Estimates that make a sum of magnitudes least (e_mp, e_rel) are made
+anew of noise that is drawn from the same estimated spectra, along the linear curve.
 """
 
 from dataclasses import dataclass, field
@@ -96,14 +97,20 @@ def tell(problem, best, derivatives):
     unlimited, finite, told = inverse(J)
     k, variance = len(at), sum(_sandwich(problem, J, finite, noises))
     quantiles, half_widths = numpy.full(k, stats.norm.isf(0.5 * (1 - CONFIDENCE))), numpy.full(k, numpy.inf)
+    if problem.measure != "least squares":
+        estimates = _magnitude_estimates(problem, J, noises, numpy.random.default_rng(int(problem.values["Calibration / Seed"])))
+        variance = estimates.T @ estimates / len(estimates)
+        half_widths[told] = numpy.quantile(abs(estimates), CONFIDENCE, axis=0)[told]
     for j in numpy.flatnonzero(told):
-        # of independent errors squares of half widths add up
-        half_widths[j] = numpy.linalg.norm([own.half_width(J[series.slice] @ finite[:, j], CONFIDENCE)
-                                            for series, own in zip(problem.series, noises)])
+        if problem.measure == "least squares":
+            # of independent errors squares of half widths add up
+            half_widths[j] = numpy.linalg.norm([own.half_width(J[series.slice] @ finite[:, j], CONFIDENCE)
+                                                for series, own in zip(problem.series, noises)])
         if variance[j, j] > 0:
             quantiles[j] = half_widths[j] / numpy.sqrt(variance[j, j])
     whole = variance + numpy.median([own.sd**2 for own in noises]) * (unlimited - finite)
-    result = Told(J, noises, ~pushed, whole, variance, half_widths, quantiles, at - half_widths, at + half_widths)
+    ends = [numpy.where(told, numpy.clip(end, lower, upper), end) for end in (at - half_widths, at + half_widths)]
+    result = Told(J, noises, ~pushed, whole, variance, half_widths, quantiles, *ends)
     _find_directions(problem, result, best.values, at, residuals)
     return result
 
@@ -202,7 +209,8 @@ def profile_ends(problem, told, nearby, best, rounds):
     J = told.derivatives
     _, finite, _ = inverse(J)
     ends = []
-    for j in numpy.flatnonzero(numpy.isfinite(told.half_widths) & (told.half_widths > 0)):
+    # exact data leave rounding only
+    for j in numpy.flatnonzero(numpy.isfinite(told.half_widths) & (told.half_widths > 1e-9 * sizes_of(unknowns, best.values))):
         growth = told.half_widths[j] ** 2 / finite[j, j]  # of the sum of squares at the end of the linear curve
         for sign in (-1, 1):
             limit = (upper[j] - centre[j]) if sign > 0 else (centre[j] - lower[j])
@@ -217,8 +225,6 @@ def profile_ends(problem, told, nearby, best, rounds):
             _advance(problem, best, J, active, (centre, finite, lower, upper), nearby[0])
         for end in active if nearby[1] is not None else ():
             _advance_closely(problem, told, best, end, (centre, finite, lower, upper), nearby)
-    for name, one in (("lower", centre - told.half_widths), ("upper", centre + told.half_widths)):
-        setattr(told, name, numpy.where(numpy.isfinite(one), numpy.clip(one, lower, upper), one))
     for end in ends:
         if end.done:
             (told.lower if end.sign < 0 else told.upper)[end.j] = centre[end.j] + end.sign * end.distance
@@ -322,31 +328,27 @@ def _judge(end, growth, frame):
     _move(end, target, *frame)
 
 
-def bootstrap(problem, best, derivatives, generator, n_samples=200, n_iterations=30):
-    """2.5 and 97.5 % quantiles of what is searched (2 x k) for the measures e_mp and e_rel: blocks of residuals of the same
-    curve are drawn anew, and the sum of magnitudes made small with the linear curve, by least squares with the weights of the
-    solution before."""
-    weights = problem.weights_of_measure
-    residuals, J = weights * (problem.measured - best.curve), (weights / problem.weights)[:, None] * derivatives
-    samples, n = numpy.empty((n_samples, J.shape[1])), numpy.count_nonzero(weights)
-    residuals *= numpy.sqrt(n / max(1, n - J.shape[1]))  # what the fit has taken with it
-    blocks = []  # of each curve its rows, and the length of a block
-    for series in problem.series:
-        rows = numpy.arange(series.slice.start, series.slice.stop)[weights[series.slice] > 0]
-        own = noise.estimate(residuals[rows], J[rows], [slice(0, len(rows))])
-        blocks.append((rows, min(len(rows), max(1, round(len(rows) ** (1 / 3)), round(2 * own.rows_per_value)))))
-    for sample in range(n_samples):
-        drawn = numpy.zeros(len(residuals))
-        for rows, length in blocks:
-            firsts = generator.integers(0, len(rows) - length + 1, -(-len(rows) // length))
-            drawn[rows] = residuals[rows[(firsts[:, None] + numpy.arange(length)).ravel()[:len(rows)]]]
-        change = numpy.zeros(J.shape[1])
+def _magnitude_estimates(problem, J, noises, generator, n_draws=50, n_iterations=30):
+    """Changes (8 n_draws x k) of what is searched that make the sum of magnitudes of the measures e_mp and e_rel least for noise that is
+    drawn, along the linear curve: by least squares with the weights of the solution before. What nothing tells stays."""
+    over = problem.weights_of_measure / problem.weights
+    rows = over[:, None] * J
+    size = numpy.linalg.norm(rows, axis=0)
+    size[size == 0] = 1
+    basis, sigma, turned = numpy.linalg.svd(rows / size, full_matrices=False)
+    kept = sigma > _NEVER * max(sigma.max(initial=0), 1e-300)
+    basis, back = basis[:, kept], (turned[kept].T / sigma[kept]).T / size
+    products = (basis[:, :, None] * basis[:, None, :]).reshape(len(rows), -1)
+    result = []
+    for _ in range(8):  # not all at once: there may be many rows
+        drawn = over * numpy.hstack([own.mixed_draws(generator, n_draws) for own in noises])
+        parts = drawn @ basis
         for _ in range(n_iterations):
-            root = 1 / numpy.sqrt(numpy.hypot(drawn - J @ change, 1e-3))
-            change = numpy.linalg.lstsq(root[:, None] * J, root * drawn, rcond=None)[0]
-        samples[sample] = change
-    # residuals of a curve that does not fit push all samples to one side, which is no scatter
-    return numpy.quantile(samples, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2], axis=0) - numpy.median(samples, axis=0)
+            weights = 1 / numpy.hypot(drawn - parts @ basis.T, SMOOTH)
+            squares = (weights @ products).reshape(n_draws, len(back), len(back))
+            parts = numpy.linalg.solve(squares, ((weights * drawn) @ basis)[:, :, None])[:, :, 0]
+        result.append(parts @ back)
+    return numpy.vstack(result)
 
 
 def with_test(problem, told, derivatives):

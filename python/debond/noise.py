@@ -91,6 +91,13 @@ class Noise:
         """Noise of this kind."""
         return _cosines(numpy.sqrt(self.spectrum) * generator.standard_normal(len(self.spectrum)), self.parts, fft.idct)
 
+    def mixed_draws(self, generator, number):
+        """Noise (number x n), each time of another kind, as likely as it is, and with a variance that may be its own."""
+        kinds = generator.choice(len(self.weights), number, p=self.weights)
+        variances = self.variances[kinds] * self.freedom / generator.chisquare(self.freedom, number)
+        white = generator.standard_normal((number, self.spectra.shape[1]))
+        return _cosines((numpy.sqrt(variances[:, None] * self.spectra[kinds]) * white).T, self.parts, fft.idct).T
+
     def half_width(self, direction, confidence):
         """Of the interval of the sum of `direction` (n) times the noise that holds zero so often."""
         sds = numpy.sqrt(self.variances * (self.spectra @ _cosines(direction, self.parts) ** 2))

@@ -1,6 +1,8 @@
 """What a fit has taken as known: by how much its answer changes if that is wrong, and what the rig seems to do that the scene does
 not say."""
 
+import re
+
 import numpy
 
 import _debond
@@ -10,24 +12,36 @@ from .errors import RunError, SceneError
 from .experiment import RIG, Experiment
 from .measurement import given
 
-# Entries of a scene, and by what each of them is changed: a factor, or 0: a part of the angle or torque of the peak.
-_FACTORS = ["Implant / Radius", "Implant / Height", "Bone / Outer radius", "Interface / Interference", "Bone / Young modulus", "Implant / Young modulus",
-            "Interface / Normal stiffness", "Interface / Tangential stiffness", "Interface / Friction coefficient broken",
-            "Interface / Friction coefficient unbroken", "Interface / Characteristic slip distance", "Interface / Transition factor",
-            "Interface / Bonding / Bonding degree", "Interface / Bonding / Bonded fraction", "Closed form / Normal stiffness",
-            "Closed form / Torsional stiffness", "Chuck / Rotation z / Stiffness", "Chuck / Translation z / Stiffness",
-            "Chuck / Press / Value", "Chuck / Translation z / Value"]
-_SHARES = ("Bonding degree", "Bonded fraction")  # at most 1
+# Numbers of a test, without those of meshes and of what is drawn by chance; the scene says which of them it does not read.
+_NUMBERS = re.compile("Implant / (Radius|Inner radius|Cap radius|Height|Taper angle|Thread depth)|Bone / Outer radius|(Bone|Implant) / (Young modulus|Poisson ratio)"
+                      "|Interface / (?!Quadrature|Friction starts|Bonding / )|Interface / Bonding / Bond|Closed form / (Normal|Torsional) stiffness"
+                      "|Chuck / .*Stiffness|Chuck / (Press|Translation z) / Value")
+_SHARES = ("Bonding degree", "Bonded fraction", "Adhesive friction")  # at most 1
 _JUMP = 0.05  # of the largest value, which 1 % of a number changes where a jump moves
+_NAMES = {"deg": "angle", "mm": "displacement", "N mm": "torque", "N": "force"}
 
 
 def _unit_of(entry, values):
     """Also of entries that may be expressions."""
     if entry.endswith("Interference"):
         return "mm"
-    if "Chuck" in entry:
+    if entry.endswith("Value"):
         return "N" if values[entry.replace("Value", "Control")] == "force" else "mm"
-    return _debond.unit_of(entry) or ("MPa" if "modulus" in entry else "")
+    return _debond.unit_of(entry)
+
+
+def _changed_number(entry, text):
+    """(change in words, new text) of a number; nothing of what is none."""
+    if _is_zero(text) or not text:
+        return ()
+    if entry.endswith(("Value", "Interference")):
+        return "+1 %", f"({text}) * 1.01"
+    try:
+        number = float(text)
+    except ValueError:
+        return ()
+    percent = -1 if entry.endswith(_SHARES) and 1.01 * number > 1 else 1
+    return f"{percent:+} %", repr((1 + 0.01 * percent) * number)
 
 
 def _changes(fit):
@@ -36,27 +50,41 @@ def _changes(fit):
     experiment = problem.done[0]
     values, held = experiment.values, set().union(*(problem.unknowns.entries(e.number, fit.values) for e in problem.done))
     result = []
-    for entry in _FACTORS:
-        text = given(values.get(entry, ""))
-        if entry in held or not text or _is_zero(text):
-            continue
-        percent = -1 if entry.endswith(_SHARES) and 1.01 * float(text) > 1 else 1
-        is_expression = entry.endswith(("Value", "Interference"))
-        changed = f"({text}) * 1.01" if is_expression else repr((1 + 0.01 * percent) * float(text))
-        result.append((entry, text, _unit_of(entry, values), f"{percent:+} %", changed))
-    curve = fit._best.curve[problem.series[0].slice]
-    torque = curve[numpy.argmax(abs(curve))]
-    half = numpy.argmax(abs(curve) >= 0.5 * abs(torque))  # on the way up, where angles matter
-    angle = 0.01 * experiment.measured.over[half]
-    if experiment.over.is_angle and problem.series[0].column.is_torque and torque != 0:
-        for key, size in (("angle_offset", angle), ("slack", abs(angle)), ("compliance", abs(2 * angle / torque)),
-                          ("torque_offset", 0.01 * torque), ("drift", 0.01 * torque)):
-            entry = "Calibration / " + RIG[key]
-            if entry not in held:
-                unit, now = _debond.unit_of(entry), float(values[entry])
-                part = "1 % of the largest torque" if "orque" in entry else "1 % of the angle at half the largest torque"
-                result.append((entry, values[entry], unit, f"+{size:.2g} {unit}, {part}", repr(now + float(size))))
+    for entry, text in values.items():
+        if _NUMBERS.match(entry) and entry not in held and not _moves_along(experiment, entry):
+            result += [(entry, text, _unit_of(entry, values), *change) for change in [_changed_number(entry, given(text))] if change]
+    for key, size, part in _changes_of_rig(fit, experiment):
+        entry = "Calibration / " + RIG[key]
+        if entry not in held:
+            unit = _debond.unit_of(entry)
+            result.append((entry, values[entry], unit, f"+{size:.2g} {unit}, {part}", repr(float(values[entry]) + float(size))))
     return result
+
+
+def _moves_along(experiment, entry):
+    """Whether the entry prescribes the motion that curves are drawn over: then it says how far they go, not what they are."""
+    return (entry.endswith("Value") and experiment.over.kind == "position" and experiment.over.component == 2
+            and experiment.values[entry.replace("Value", "Control")] == "displacement")
+
+
+def _changes_of_rig(fit, experiment):
+    """(key, change, what it is 1 % of) of all that instruments of this experiment may show."""
+    own = [series for series in fit.problem.series if series.experiment is experiment]
+    curves = [fit._best.curve[series.slice] for series in own]
+    largest = [curve[numpy.argmax(abs(curve))] for curve in curves]
+    load, name, half = 0, "", 0
+    for series, curve, most in reversed(list(zip(own, curves, largest))):
+        if series.column.kind == "load":  # the first one; on the way up, where positions matter
+            load, name, half = most, _NAMES[series.column.unit], numpy.argmax(abs(curve) >= 0.5 * abs(most))
+    for i, (column, keys) in enumerate(zip((experiment.over, *experiment.columns), experiment.rigs)):
+        if not keys:
+            continue
+        size = 0.01 * (largest[i - 1] if i > 0 else experiment.measured.over[half])
+        part = f"1 % of the largest {_NAMES[column.unit]}" if i > 0 else f"1 % of the {_NAMES[column.unit]} at half the largest {name}"
+        if column.kind == "load":
+            yield from ((key, size, part) for key in keys)
+        elif load != 0:
+            yield from zip(keys, (size, abs(size), abs(2 * size / load)), [part] * 3)
 
 
 def _is_zero(text):
@@ -68,13 +96,15 @@ def _is_zero(text):
 
 def _change_of_curve(fit, entry, text):
     """By how much the predicted values (N) at the best fit change if an entry of all experiments has another value; None if
-    there is no such curve. By the closed form where there is one: this is no place to spend runs."""
+    there is no such curve, or nothing reads the entry. By the closed form where there is one: this is no place to spend runs."""
     problem, curves = fit.problem, []
     closed = not problem.why_no_closed_form
     for experiment in problem.done:
         try:
             other = Experiment(problem.unknowns, experiment.number, _debond.changed(experiment.given, [f"{entry}={text}"]), experiment.name,
                                experiment.measured)
+            if any(text.startswith(entry + " = ") and "has no effect" in text for text in other.scene.warnings):
+                return None
             if closed and not other.why_no_closed_form:
                 other.settle(fit.values)
                 curves.append(other.by_closed_form(fit.values))
@@ -115,7 +145,7 @@ def _compensation(J, change, robust):
 
 def table_of(fit):
     """A list of {"entry", "value", "unit", "change", "effect": {unknown: by how many % of itself}}. Rows over which 1 % of a number moves
-    a jump of the curve are left out, and so are effects on what hardly any other rows tell."""
+    a jump of the curve are left out, and so are effects on what hardly any other rows tell, and numbers that change nothing by 0.01 %."""
     problem, told = fit.problem, fit.told
     usable = told.free & numpy.isfinite(told.half_widths)
     free = numpy.flatnonzero(usable)
@@ -136,9 +166,9 @@ def table_of(fit):
         other = problem.unknowns.values_of(at + moved)
         with numpy.errstate(over="ignore"):
             effect = numpy.where(usable & (fit.values != 0), 100 * (other / numpy.where(fit.values == 0, 1, fit.values) - 1), numpy.nan)
-        table.append({"entry": entry, "value": value, "unit": unit, "change": change,
-                      "effect": {name: (round(float(x), 2) + 0.0 if numpy.isfinite(x) else None)
-                                 for name, x in zip(fit.names, effect)}})
+        effect = {name: (round(float(x), 2) + 0.0 if numpy.isfinite(x) else None) for name, x in zip(fit.names, effect)}
+        if any(effect.values()) or (abs(change_of_curve).max() > 1e-6 * largest.max() and set(effect.values()) == {None}):
+            table.append({"entry": entry, "value": value, "unit": unit, "change": change, "effect": effect})
     return table
 
 

@@ -680,6 +680,28 @@ def check_known():
            and abs(degree["effect"]["mu_b"]) < 0.02, degree)
 
 
+def check_known_of_pulls():
+    """An adhesive pulls t_0 x exp(1 - x) at the gap u = x g_0: what another g_0 and a force on top make of t_0 is in closed form."""
+    rows = debond.Scene(text=PULL).run().rows
+    u, F = rows["chuck_uz_mm"], rows["chuck_Fz_N"]
+    write("pull.csv", {"u": u, "F": F + 0.1 * numpy.random.default_rng(1).standard_normal(len(F))})
+    found = fit_of_pull()
+    table = {row["entry"]: row["effect"]["t0"] for row in found.taken_as_known}
+    pull, other = (u / gap * numpy.exp(1 - u / gap) for gap in (0.02, 0.0202))
+    by_gap, by_force = pull @ other / (other @ other) - 1, -0.01 * pull.sum() / (pull @ pull)
+    again = fit_of_pull(**{I + "Adhesive/Gap at strength": 0.0202}).values[0] / found.values[0] - 1
+    report("a gap at strength 1 % off moves t_0 by -0.49 %, in the table, in a fit and in closed form, to 0.02 %",
+           max(abs(100 * by_gap - table["Interface / Adhesive / Gap at strength"]), abs(100 * (by_gap - again))) < 0.02, (by_gap, again, table))
+    report("1 % of the largest force: -1.42 %", abs(100 * by_force - table["Calibration / Force offset"]) < 0.02, (by_force, table))
+    rows = {"Implant / Radius", "Interface / Adhesive / Gap at strength", "Interface / Bonding / Bonding degree",
+            *("Calibration / " + name for name in ("Displacement offset", "Displacement slack", "Displacement compliance", "Force offset", "Force drift"))}
+    report("no row of what a pull does not read", set(table) == rows, set(table) ^ rows)
+    mixed = {I + "Law": "mixed mode", I + "Mixed mode/Fracture energy I": "<<G: 0.06 in 0.02..0.2>>", I + "Viscosity": 1}
+    table = {row["entry"] for row in fit_of_pull(mixed, **{"Calibration/Largest misfit": 1}).taken_as_known if row["entry"].startswith("Interface")}
+    rows = {I.replace("/", " / ") + name for name in ("Mixed mode / Normal strength", "Mixed mode / Stiffness", "Bonding / Bonding degree")}
+    report("of mixed mode those of opening", table == rows, table ^ rows)
+
+
 def check_posteriors():
     """Where the curve is nearly linear in the unknowns all ways to an interval agree."""
     generator = numpy.random.default_rng(3)
@@ -747,6 +769,7 @@ def main():
         check_band()
         check_what_cannot_be_told()
         check_known()
+        check_known_of_pulls()
         check_posteriors()
         check_ends()
         check_intervals()

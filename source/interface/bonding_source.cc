@@ -45,11 +45,14 @@ namespace Debond
         {
           throw EntryError(bonding_section + "Expression", error.what());
         }
-      return [phi_0, expression, &implant](const Eigen::Vector3d &X) {
+      const double R = implant.characteristic_radius();
+      return [phi_0, expression, R, &implant](const Eigen::Vector3d &X) {
         const Eigen::Vector2d place = implant.geometry().on_face(implant, X);
         const double          angle = std::atan2(X[1], X[0]) * 180. / M_PI;
-        const double          value =
-          phi_0({place[0], place[1], X.head<2>().norm(), angle});
+        const double          r     = X.head<2>().norm();
+        // on a pin r = R, whatever rounding says
+        const double value = phi_0(
+          {place[0], place[1], std::abs(r - R) < 1e-9 * R ? R : r, angle});
         // rounding may exceed the bounds by its own size
         if (!(value >= -1e-12 && value <= 1. + 1e-12))
           throw EntryError(bonding_section + "Expression",

@@ -256,8 +256,9 @@ namespace Debond
 
 
   // Where the bodies are made, whatever the chuck and a press fit do at the
-  // first time. A gap that facets account for is none to a bond, which would
-  // else hold where meshes match only.
+  // first time. A gap that facets account for is none: bonds would else hold,
+  // and a press fit press, where meshes match only. Without bonds that is so if
+  // all of the face fits; a ball on a plane has a gap.
   void
   ContactInterface::find_facets(const double touch_tolerance)
   {
@@ -269,18 +270,27 @@ namespace Debond
     const MasterSurface master{&surface,
                                &surface.control_points(),
                                mesh[master_side()]->outward_sign()};
+    bool                fits = true;
     for (SlavePoint &point : points)
       {
         const Projection rest = project(master, point.X, &point.accepted.xi);
         if (!rest.faces)
           continue;
         const double facets =
-          own[point.element] + errors[surface.element_of(rest.xi)];
+                       own[point.element] + errors[surface.element_of(rest.xi)],
+                     gap = std::abs(rest.height);
         at_start.facets  = std::max(at_start.facets, facets);
         at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
-        if (law.joint->pulls() && std::abs(rest.height) <= facets &&
-            std::abs(rest.height) > touch_tolerance) // no rounding
+        fits             = fits && gap <= facets + touch_tolerance;
+        if (gap <= facets && gap > touch_tolerance) // no rounding
           point.gap_at_start = rest.height;
+      }
+    for (SlavePoint &point : points)
+      {
+        if (!fits && !law.joint->pulls())
+          point.gap_at_start = 0.;
+        at_start.largest_gap =
+          std::max(at_start.largest_gap, std::abs(point.gap_at_start));
       }
   }
 
@@ -368,8 +378,6 @@ namespace Debond
           continue;
         ++at_start.n_bonded;
         at_start.bonded_area += point.phi_0 * point.JxW;
-        at_start.largest_gap =
-          std::max(at_start.largest_gap, std::abs(point.gap_at_start));
       }
   }
 

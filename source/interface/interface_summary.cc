@@ -294,13 +294,18 @@ namespace Debond
 
 
   std::string
-  FacesAtStart::in_words() const
+  FacesAtStart::in_words(const bool pulls) const
   {
-    return "bonded in tension: " + std::to_string(n_bonded) + " points, " +
-           to_text(bonded_area, 4) + " of " + to_text(bonding_area, 4) +
-           " mm^2; gaps at the start of up to " + to_text(largest_gap, 2) +
-           " mm are taken off (facets account for " + to_text(facets, 2) +
-           " mm)";
+    const std::string bonded =
+      pulls ? "bonded in tension: " + std::to_string(n_bonded) + " points, " +
+                to_text(bonded_area, 4) + " of " + to_text(bonding_area, 4) +
+                " mm^2" :
+              "";
+    return largest_gap == 0. ?
+             bonded :
+             bonded + (pulls ? "; " : "") + "gaps between the faces of up to " +
+               to_text(largest_gap, 2) + " mm are taken off (facets account " +
+               "for " + to_text(facets, 2) + " mm)";
   }
 
 

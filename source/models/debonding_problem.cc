@@ -174,9 +174,11 @@ namespace Debond
             write_file(directory.file("bonding.csv"), bonding.table());
             console.headline("Initial bonding: " + bonding.description());
           }
-        if (scene.interface.joint()->pulls())
-          console.headline(
-            simulation.system().interface.faces_at_start().in_words());
+        const std::string faces =
+          simulation.system().interface.faces_at_start().in_words(
+            scene.interface.joint()->pulls());
+        if (!faces.empty())
+          console.headline(faces);
         if (!simulation.rows().empty())
           {
             const TorqueRow &last = simulation.rows().back();

@@ -84,8 +84,11 @@ namespace Debond
           {"faces nothing",
            to_text(beside, 4) + " of " + to_text(interface.implant_area(), 4) +
              " mm^2 of the implant's contact face have no bone in front of "
-             "them at the start, and count in mean pressure and bonded area: "
-             "is it beside the bone, is the bone too short, or is a face left "
+             "them at the start" +
+             (interface.slave_side() == Side::bone ?
+                "" :
+                ", and count in mean pressure and bonded area") +
+             ": is it beside the bone, is the bone too short, or is a face left "
              "out of contact?"});
       const double left_out = interface.area_left_out();
       if (left_out > 1e-3 * interface.implant_area())

@@ -98,9 +98,10 @@ namespace Debond
     double bonded_area = 0, bonding_area = 0; ///< integral of phi_0; wanted
     double largest_gap = 0;                   ///< that is taken off [mm]
 
-    /** What bonds in tension, for people. */
+    /** What bonds, in a law that pulls, and gaps that are taken off; empty if
+     *  there is neither. */
     std::string
-    in_words() const;
+    in_words(bool pulls) const;
   };
 
   /** How a point has moved in the step in which it opens. */

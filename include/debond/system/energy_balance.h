@@ -175,7 +175,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &started &last &last_change &last_motion &greatest &hidden
-        &largest_work &work &released &jumps;
+        &largest_work &work &at_start &released &jumps;
     }
 
   private:
@@ -190,7 +190,7 @@ namespace Debond
     Chuck::Vector6 greatest     = Chuck::Vector6::Zero(); ///< forces, absolute
     bool           hidden       = false;
     double         created      = 0;
-    double         largest_work = 0, work = 0, released = 0;
+    double         largest_work = 0, work = 0, at_start = 0, released = 0;
     unsigned int   jumps = 0;
   };
 } // namespace Debond

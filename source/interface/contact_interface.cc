@@ -673,6 +673,52 @@ namespace Debond
 
 
 
+  // The tractions on both faces are not along the gap where stiffnesses differ:
+  // the offset m = g - t / eps_t is along the normal [mm]. Where that turns,
+  // this couple works, which no potential has. It is dissipated with the slip:
+  // doc/explanation/contact.md, Energies.
+  double
+  ContactInterface::couple_work(const SlavePoint      &point,
+                                const NodalSums       &before,
+                                const Eigen::Matrix3d &old_Q,
+                                const Eigen::Matrix3d &Q) const
+  {
+    const ContactPointResult &trial = point.trial;
+    if ((master_is_flat && Q == old_Q) ||
+        trial.state.status == PointStatus::open ||
+        point.accepted.status == PointStatus::open)
+      return 0.;
+    const double h = point.accepted.normal_gap, height = h + point.gap_at_start,
+                 eps_t = law.tangential_penalty;
+    const auto gap     = [&](const NodalSums &at, const SurfaceBasis &y) {
+      return Eigen::Vector3d(interpolate(point.basis, at[slave]) -
+                             interpolate(y, at[master_side()]));
+    };
+    const SurfaceBasis &old_basis =
+      slides(trial.state.status) ? trial.old_basis : trial.basis;
+    const Eigen::Vector3d old_t = old_Q * point.accepted_traction,
+                          m     = gap(accepted_positions, trial.basis) -
+                              trial.traction / eps_t,
+                          along_n = gap(before, old_basis) - old_t / eps_t;
+    const PointStart start        = point.begin(*law.joint, mode_now);
+    const double     p            = law.joint->respond(start, h, 0.).pressure;
+    double           work         = 0.;
+    if (height != 0. && m.norm() > mode_now.touch_tolerance)
+      work = m.dot(old_t) - (1. + p / (eps_t * height)) *
+                              along_n.dot(trial.tangential_traction);
+    if (const CohesiveShare *const share = held_share(point))
+      {
+        const Eigen::Vector3d old_gap = old_Q * share->gap;
+        work +=
+          share->stiffness_by_damage * (point.accepted.damage - 1.) *
+            old_gap.dot(gap(accepted_positions, share->basis) - share->bears) -
+          share->traction.dot(gap(before, share->basis) - old_gap);
+      }
+    return 0.5 * work;
+  }
+
+
+
   // The trial state becomes the accepted one. Tractions are kept in the frame
   // of the master, so that a rotation of the whole changes nothing; the works
   // need both ends of the step, and so come first.
@@ -718,46 +764,8 @@ namespace Debond
             mode_now,
             Q,
             opening_motion(point, configuration, chuck, before[slave]));
-        // With unequal stiffnesses the tractions on both faces are not along
-        // the gap: the offset m = g - t / eps_t is along the normal [mm]. Where
-        // that turns this couple works, which no potential has. It is
-        // dissipated with the slip: doc/explanation/contact.md, Energies.
-        if ((!master_is_flat || Q != old_Q) &&
-            trial.state.status != PointStatus::open &&
-            point.accepted.status != PointStatus::open)
-          {
-            const PointStart start = point.begin(*law.joint, mode_now);
-            const double     h     = point.accepted.normal_gap,
-                         eps_t     = law.tangential_penalty,
-                         height    = h + point.gap_at_start;
-            const NodalSums &now   = accepted_positions;
-            const auto gap = [&](const NodalSums &at, const SurfaceBasis &y) {
-              return Eigen::Vector3d(interpolate(point.basis, at[slave]) -
-                                     interpolate(y, at[master_side()]));
-            };
-            const auto &old_basis =
-              slides(trial.state.status) ? trial.old_basis : trial.basis;
-            const Eigen::Vector3d old_t = old_Q * point.accepted_traction,
-                                  m     = gap(now, trial.basis) -
-                                      trial.traction / eps_t,
-                                  along_n =
-                                    gap(before, old_basis) - old_t / eps_t;
-            const double p    = law.joint->respond(start, h, 0.).pressure;
-            double       work = 0.;
-            if (height != 0. && m.norm() > mode_now.touch_tolerance)
-              work = m.dot(old_t) - (1. + p / (eps_t * height)) *
-                                      along_n.dot(trial.tangential_traction);
-            if (const CohesiveShare *const share = held_share(point))
-              {
-                const Eigen::Vector3d old_gap = old_Q * share->gap;
-                work +=
-                  share->stiffness_by_damage * (point.accepted.damage - 1.) *
-                    old_gap.dot(gap(now, share->basis) - share->bears) -
-                  share->traction.dot(gap(before, share->basis) - old_gap);
-              }
-            for (double *const sum : {&works.dissipation, &works.friction})
-              *sum += 0.5 * point.JxW * work;
-          }
+        for (double *const sum : {&works.dissipation, &works.friction})
+          *sum += point.JxW * couple_work(point, before, old_Q, Q);
         // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
         // with: tangential traction and pressure [MPa], stored energy [N/mm].
         point.accepted          = trial.state;

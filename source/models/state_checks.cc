@@ -168,6 +168,16 @@ namespace Debond
                        "the faces of these cells cannot follow a stiff "
                        "interface, and pressure and stiffness are too large: "
                        "finer Cells, or a smaller Normal stiffness");
+      const double springs =
+        summary.pressure / system.R *
+        std::abs(1. / parameters.interface.normal_penalty -
+                 1. / parameters.interface.tangential_stiffness());
+      if (interface.is_curved() && springs > 0.01)
+        note("springs that differ",
+             Text() << "Normal and Tangential stiffness differ: on a curved "
+                       "face the torque changes by some "
+                    << to_text(100. * springs, 2)
+                    << " %. Tangential stiffness = auto does not change it");
       if (interface.n_unprojected() > 0)
         note("projection",
              Text() << "for " << interface.n_unprojected()

@@ -478,9 +478,20 @@ namespace Debond
     void
     judge_entries(const Scene &scene, const Note &note)
     {
-      const std::string &law_name = scene.interface.friction_choice.law;
-      const FrictionLaw &law      = *scene.interface.friction;
-      const bool is_bonded = law.has_bond() || scene.interface.joint()->pulls();
+      const std::string &law_name  = scene.interface.friction_choice.law;
+      const FrictionLaw &law       = *scene.interface.friction;
+      const bool         pulls     = scene.interface.joint()->pulls();
+      const bool         is_bonded = law.has_bond() || pulls;
+      const bool         is_crack  = scene.model == ModelKind::crack,
+                 of_angles = scene.model == ModelKind::prescribed_angles,
+                 is_auto   = scene.model == ModelKind::automatic,
+                 of_points = !is_crack && !of_angles, // their laws
+        has_cells          = of_points || !scene.bone.is_rigid(),
+                 has_steps =
+                   scene.model == ModelKind::finite_elements || is_auto,
+                 rubs  = !law.is_frictionless(),
+                 wears = is_bonded && rubs && !is_crack &&
+                         scene.interface.law_choice.law != "mixed mode";
       const struct
       {
         const char *beginning; ///< of the names
@@ -497,12 +508,25 @@ namespace Debond
         {"Closed form / ",
          scene.model != ModelKind::finite_elements,
          "closed forms"},
-        {"Auto / ", scene.model == ModelKind::automatic, "Model = auto"},
+        {"Closed form / Torsional", of_points, "Model = foundation"},
+        {"Closed form / Linear",
+         of_angles || is_auto,
+         "Model = prescribed angles"},
+        {"Closed form / Slip",
+         of_angles || is_auto,
+         "Model = prescribed angles"},
+        {"Closed form / Shear", is_crack || is_auto, "Model = crack"},
+        {"Closed form / Adhesion", is_crack || is_auto, "Model = crack"},
+        {"Auto / ", is_auto, "Model = auto"},
         {"Calibration / ",
          std::any_of(scene.changed_entries.begin(),
                      scene.changed_entries.end(),
                      [](const SceneEntry &e) { return e.name == "Task"; }),
          "Task = calibrate"},
+        {"Bone / Cells", has_cells, "laws of points, and bodies that deform"},
+        {"Bone / Contact", has_cells, "laws of points, and bodies that deform"},
+        {"Bone / Lateral", has_cells, "laws of points, and bodies that deform"},
+        {"Bone / Size", has_cells, "laws of points, and bodies that deform"},
         {"Bone / Young", !scene.bone.is_rigid(), "bodies that deform"},
         {"Bone / Poisson", !scene.bone.is_rigid(), "bodies that deform"},
         {"Bone / Layer", !scene.bone.is_rigid(), "bodies that deform"},
@@ -517,8 +541,20 @@ namespace Debond
          "Cells under implant"},
         {"Implant / Young", !scene.implant.is_rigid(), "bodies that deform"},
         {"Interface / Friction starts at",
-         !law.is_frictionless(),
-         "laws with friction"},
+         rubs && has_steps,
+         "laws with friction in finite elements"},
+        {"Interface / Tangential",
+         of_points && (rubs || pulls),
+         "laws of points that stick"},
+        {"Interface / Characteristic", wears, "bonds that slip wears"},
+        {"Interface / Transition", wears, "bonds that slip wears"},
+        {"Interface / Friction coefficient unbroken",
+         wears,
+         "bonds that slip wears"},
+        {"Expert / Slip", rubs && has_steps, "friction in finite elements"},
+        {"Expert / Friction update",
+         is_bonded || law.depends_on_rate(),
+         "friction that changes"},
         {"Interface / Bonding / ", is_bonded, "laws with a bond"},
         {"Output / Observed bonding", is_bonded, "laws with a bond"}};
       for (const SceneEntry &entry : scene.changed_entries)
@@ -531,25 +567,25 @@ namespace Debond
           const std::string name = entry.full_name();
           const std::string text = name + " = " + shortened(entry.value) +
                                    " has no effect in this scene: it is for ";
+          std::string reader; // the first that is found
           for (const auto &row : table)
-            note(!row.is_read && name.rfind(row.beginning, 0) == 0,
-                 name,
-                 text + row.reader);
+            if (reader.empty() && !row.is_read &&
+                name.rfind(row.beginning, 0) == 0)
+              reader = row.reader;
           for (const InterfaceLawPlugin &plugin : interface_law_plugins())
             for (const LawEntry &other : plugin.entries)
-              note(plugin.name != scene.interface.law_choice.law &&
-                     name ==
-                       "Interface / " + other.subsection + " / " + other.name,
-                   name,
-                   text + "Law = " + plugin.name);
+              if (plugin.name != scene.interface.law_choice.law &&
+                  name ==
+                    "Interface / " + other.subsection + " / " + other.name)
+                reader = "Law = " + plugin.name;
           bool is_of_law = false, is_of_others = false;
           for (const FrictionLawPlugin &plugin : friction_law_plugins())
             for (const LawEntry &other : plugin.entries)
               if (other.name == entry.name && name.rfind("Interface", 0) == 0)
                 (plugin.name == law_name ? is_of_law : is_of_others) = true;
-          note(is_of_others && (!is_of_law || law.is_frictionless()),
-               name,
-               text + "another Friction law");
+          if (is_of_others && (!is_of_law || law.is_frictionless()))
+            reader = "another Friction law";
+          note(!reader.empty(), name, text + reader);
         }
     }
   } // namespace

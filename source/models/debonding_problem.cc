@@ -463,6 +463,8 @@ namespace Debond
     if (scene.bone.element == ElementKind::spline ||
         scene.bulk_solver() == BulkSolver::multigrid)
       out << scene.bulk_solver_in_words() << '\n';
+    const std::string faces =
+      interface.faces_at_start().in_words(interface.get_law().pulls());
     out << interface.n_points() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'
         << "memory: some "
@@ -473,9 +475,7 @@ namespace Debond
         << " MB" << (Ranks::number() > 1 ? " in each process\n" : "\n")
         << "initial bonding " << name_of(scene.interface.bonding.pattern)
         << ": " << interface.bonding().description() << '\n'
-        << (interface.get_law().pulls() ?
-              interface.faces_at_start().in_words() + '\n' :
-              "")
+        << faces << (faces.empty() ? "" : "\n")
         << (scene.load_steps.adaptive ? "adaptive steps, no larger than " : "")
         << scene.load_steps.n_steps() << " planned steps"
         << (scene.load_steps.adaptive ? "," : "") << " from time "

@@ -257,8 +257,8 @@ namespace Debond
 
   // Where the bodies are made, whatever the chuck and a press fit do at the
   // first time. A gap that facets account for is none: bonds would else hold,
-  // and a press fit press, where meshes match only. Without bonds that is so if
-  // all of the face fits; a ball on a plane has a gap.
+  // and a press fit press, where meshes match only. Without these it stays, as
+  // an implant may be made larger than the hole for it.
   void
   ContactInterface::find_facets(const double touch_tolerance)
   {
@@ -270,7 +270,9 @@ namespace Debond
     const MasterSurface master{&surface,
                                &surface.control_points(),
                                mesh[master_side()]->outward_sign()};
-    bool                fits = true;
+    const bool takes_off = law.joint->pulls() || parameters.has_interference();
+    bool       fits      = true;
+    double     lowest = std::numeric_limits<double>::max(), highest = -lowest;
     for (SlavePoint &point : points)
       {
         const Projection rest = project(master, point.X, &point.accepted.xi);
@@ -282,16 +284,16 @@ namespace Debond
         at_start.facets  = std::max(at_start.facets, facets);
         at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
         fits             = fits && gap <= facets + touch_tolerance;
-        if (gap <= facets && gap > touch_tolerance) // no rounding
-          point.gap_at_start = rest.height;
+        lowest           = std::min(lowest, rest.height);
+        highest          = std::max(highest, rest.height);
+        if (takes_off && gap <= facets && gap > touch_tolerance) // no rounding
+          {
+            point.gap_at_start   = rest.height;
+            at_start.largest_gap = std::max(at_start.largest_gap, gap);
+          }
       }
-    for (SlavePoint &point : points)
-      {
-        if (!fits && !law.joint->pulls())
-          point.gap_at_start = 0.;
-        at_start.largest_gap =
-          std::max(at_start.largest_gap, std::abs(point.gap_at_start));
-      }
+    if (fits && !takes_off)
+      at_start.uneven = std::max(0., highest - lowest);
   }
 
 

@@ -76,6 +76,14 @@ namespace Debond
            "the bodies overlap by up to " + to_text(faces.overlap, 3) +
              " mm where they are made, which presses them apart: move one of "
              "them; Interface / Interference is for press fits"});
+      if (faces.uneven > 1e-3 * scene.implant.characteristic_radius())
+        warnings.push_back(
+          {"facets",
+           "facets of bone and implant do not match, and leave gaps that differ "
+           "by up to " +
+             to_text(faces.uneven, 2) +
+             " mm: pressures are off by that over the penetration. Use cells "
+             "that match"});
       // with the bone as slave points meet the rim as closely as they lie
       const double beside = interface.implant_area() - faces.facing_area,
                    little = interface.slave_side() == Side::bone ? 0.1 : 0.01;

@@ -180,10 +180,10 @@ namespace Debond
       const std::string          entry = "Interface / Friction starts at";
       const std::vector<double> &times = load_steps.times;
       if (!interface.friction->is_frictionless() &&
-          interface.friction_starts_at >= times.back())
+          interface.friction_starts_at > times.back())
         throw EntryError(entry,
-                         "this is not before the last of Load steps / Times: "
-                         "use Friction law = frictionless if none is wanted");
+                         "this is after the last of Load steps / Times: use "
+                         "Friction law = frictionless if none is wanted");
 
       if (interface.friction_starts_at <= times.front())
         return;

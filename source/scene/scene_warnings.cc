@@ -250,6 +250,11 @@ namespace Debond
            "Load steps / Tolerance holds for each step; with friction that "
            "depends on the speed errors of earlier steps may grow: compare "
            "with a smaller Tolerance");
+      note(!scene.interface.friction->is_frictionless() &&
+             scene.interface.friction_starts_at >= steps.times.back(),
+           "start of friction",
+           "Interface / Friction starts at the last time: nothing rubs in this "
+           "scene");
       note(
         steps.adaptive && steps.steps == LoadSteppingParameters().steps,
         "largest steps",

@@ -96,7 +96,8 @@ namespace Debond
     double       facing_area = 0; ///< of the implant, with the chuck [mm^2]
     unsigned int n_bonded    = 0; ///< points
     double bonded_area = 0, bonding_area = 0; ///< integral of phi_0; wanted
-    double largest_gap = 0;                   ///< that is taken off [mm]
+    double largest_gap = 0; ///< that is taken off [mm]
+    double uneven      = 0; ///< range of gaps that are not [mm]
 
     /** What bonds, in a law that pulls, and gaps that are taken off; empty if
      *  there is neither. */

@@ -536,13 +536,11 @@ namespace Debond
     void
     accept_shares(const InterfaceConfiguration &configuration);
     /** Work of the tractions on both faces of a point as a couple, from the
-     *  positions @p before and the master's frame @p old_Q to those accepted
-     *  and @p Q [N/mm]. */
+     *  positions @p before and the master's frame @p old_Q [N/mm]. */
     double
     couple_work(const SlavePoint      &point,
                 const NodalSums       &before,
-                const Eigen::Matrix3d &old_Q,
-                const Eigen::Matrix3d &Q) const;
+                const Eigen::Matrix3d &old_Q) const;
 
     /** Bound of how far points of the two surfaces have moved towards each
      *  other since the accepted configuration [mm]. */

@@ -494,9 +494,10 @@ namespace Debond
         has_cells          = of_points || !scene.bone.is_rigid(),
                  has_steps =
                    scene.model == ModelKind::finite_elements || is_auto,
-                 rubs  = !law.is_frictionless(),
-                 wears = is_bonded && rubs && !is_crack &&
-                         scene.interface.law_choice.law != "mixed mode";
+                 rubs    = !law.is_frictionless(),
+                 by_slip = rubs && !is_crack &&
+                           scene.interface.law_choice.law != "mixed mode",
+                 wears = is_bonded && by_slip;
       const struct
       {
         const char *beginning; ///< of the names
@@ -554,7 +555,7 @@ namespace Debond
         {"Interface / Characteristic", wears, "bonds that slip wears"},
         {"Interface / Transition", wears, "bonds that slip wears"},
         {"Interface / Friction coefficient unbroken",
-         wears,
+         by_slip,
          "bonds that slip wears"},
         {"Expert / Slip", rubs && has_steps, "friction in finite elements"},
         {"Expert / Friction update",

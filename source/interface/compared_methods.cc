@@ -32,8 +32,9 @@ namespace Debond
     // a point right under its old partner is pulled nowhere: it has no tau, and
     // no tangential traction
     has_direction = pull_along_surface > std::numeric_limits<double>::min();
-    tau           = has_direction ? Vector3d(u / pull_along_surface) :
-                                    Vector3d(Vector3d::Zero());
+    tau           = Vector3d::Zero();
+    if (has_direction)
+      tau = u / pull_along_surface;
   }
 
 
@@ -50,8 +51,9 @@ namespace Debond
   void
   SlipEquations::find_distance()
   {
-    const double length = slip.norm();
-    distance = !is_previous_gap && slip.dot(tau) < 0. ? -length : length;
+    const double length    = slip.norm();
+    const bool   backwards = !is_previous_gap && slip.dot(tau) < 0.;
+    distance               = backwards ? -length : length;
     forward =
       length > 1e-14 * trial_gap.norm() ? Vector3d(slip / distance) : tau;
   }

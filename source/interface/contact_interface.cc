@@ -38,10 +38,9 @@ namespace Debond
     , along(
         parameters.points_per_element(bone.parameters(), implant.parameters()))
   {
-    // A point carries its weight JxW [mm^2] of
-    // the reference area, and a history: to begin with no partner, g_s = 0, and
-    // the internal variables that the law wants, such as the initial state of a
-    // law that ages.
+    // A point carries its weight JxW [mm^2] of the reference area, and a
+    // history: to begin with no partner, g_s = 0, and the internal variables
+    // that the law wants, such as the initial state of a law that ages.
     const auto places = surface_quadrature(mesh[slave]->surface(), along);
     points.resize(places.size());
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -390,6 +389,19 @@ namespace Debond
     /** A step of the points to a configuration. */
     struct StepOfPoints
     {
+      /** @p from: the implant's place before the step. */
+      StepOfPoints(const ContactPointLaw        &law,
+                   const Side                    slave,
+                   const MasterSurface          &master,
+                   const Place                  &from,
+                   const InterfaceConfiguration &configuration)
+        : law(law)
+        , slave(slave)
+        , master(master)
+        , rigid(from, Place::of_implant(configuration))
+        , configuration(configuration)
+      {}
+
       const ContactPointLaw        &law;
       const Side                    slave;
       const MasterSurface           master;
@@ -499,12 +511,11 @@ namespace Debond
     // judged and when it is committed.
     const double moved = motion(configuration);
     mode_now           = mode;
-    const StepOfPoints step{law,
+    const StepOfPoints step(law,
                             slave,
                             master(configuration),
-                            {{accepted_frame, accepted_centre},
-                             Place::of_implant(configuration)},
-                            configuration};
+                            {accepted_frame, accepted_centre},
+                            configuration);
     const auto         update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint         &point  = points[q];
       ContactPointResult &result = point.trial;
@@ -593,18 +604,9 @@ namespace Debond
     InterfaceConfiguration first = middle, last = configuration;
     first.chuck_unknowns.clear(); // no derivatives
     last.chuck_unknowns.clear();
-    const Place        middle_place = Place::of_implant(first);
-    const StepOfPoints first_step{law,
-                                  slave,
-                                  master(first),
-                                  {{accepted_frame, accepted_centre},
-                                   middle_place},
-                                  first},
-      last_step{law,
-                slave,
-                master(last),
-                {middle_place, Place::of_implant(last)},
-                last};
+    const StepOfPoints first_step(
+      law, slave, master(first), {accepted_frame, accepted_centre}, first),
+      last_step(law, slave, master(last), Place::of_implant(first), last);
     ContactPointMode mode = mode_now;
     mode.duration *= 0.5;
     const auto update = [&](const unsigned int q, NodalSums &sums) {
@@ -654,12 +656,11 @@ namespace Debond
     tangent_is_gathered = false;
     if (law.slip_direction != SlipDirection::integrated)
       return;
-    const StepOfPoints step{law,
+    const StepOfPoints step(law,
                             slave,
                             master(configuration),
-                            {{accepted_frame, accepted_centre},
-                             Place::of_implant(configuration)},
-                            configuration};
+                            {accepted_frame, accepted_centre},
+                            configuration);
     for (SlavePoint &point : points)
       if (slides(point.trial.state.status))
         {
@@ -765,8 +766,9 @@ namespace Debond
             mode_now,
             Q,
             opening_motion(point, configuration, chuck, before[slave]));
-        for (double *const sum : {&works.dissipation, &works.friction})
-          *sum += point.JxW * couple_work(point, before, old_Q);
+        const double couple = point.JxW * couple_work(point, before, old_Q);
+        works.dissipation += couple;
+        works.friction += couple;
         // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
         // with: tangential traction and pressure [MPa], stored energy [N/mm].
         point.accepted          = trial.state;

@@ -313,8 +313,9 @@ namespace Debond
         // Solved with an open gap, or beyond the edge: open. Not found: an open
         // point stands in for the result, marked as failed, so that the
         // iteration is given up and the step made smaller.
-        open(outcome == SlipOutcome::not_found ? 0. : g_n);
-        result.failed = outcome == SlipOutcome::not_found;
+        const bool failed = outcome == SlipOutcome::not_found;
+        open(failed ? 0. : g_n);
+        result.failed = failed;
         if (outcome == SlipOutcome::left_patch)
           result.path_to_edge = end.distance;
       }

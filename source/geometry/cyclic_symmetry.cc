@@ -168,6 +168,13 @@ namespace Debond
     for (unsigned int A = 0; A < control_points.size(); ++A)
       vectors.col(A) = turn[control_points[A].turns] *
                        mean.col(control_points[A].first).eval();
+    if (vectors.cols() == Eigen::Index(control_points.size()))
+      return;
+    // a sum of vectors times gaps in a frame, which turn as well
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const Eigen::Matrix3d &Q : turn)
+      sum += Q * vectors.rightCols<3>() * Q.transpose() / turn.size();
+    vectors.rightCols<4>() << -sum.rowwise().sum(), sum;
   }
 
 

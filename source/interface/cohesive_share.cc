@@ -14,7 +14,6 @@ namespace Debond
   void
   CohesiveShare::update(const InterfaceLaw  &law,
                         const PointStart    &start,
-                        const double         gap_at_start,
                         const Vector3d      &x,
                         const MasterSurface &master)
   {
@@ -30,8 +29,8 @@ namespace Debond
     const MasterNormal of_master(geometry, master.outward_sign);
     const Vector3d    &n      = of_master.n;
     const Vector3d     whole  = x - geometry.y;
-    const double       height = n.dot(whole), g_n = height - gap_at_start;
-    const Vector3d     along  = whole - height * n;
+    const double       g_n    = n.dot(whole);
+    const Vector3d     along  = whole - g_n * n;
     const double       length = along.norm();
     const Vector3d direction  = length > 0. ? Vector3d(along / length) : along;
     const CohesiveResponse response = law.hold(start, g_n, length);
@@ -40,7 +39,7 @@ namespace Debond
     normal              = n;
     damage              = response.damage;
     stiffness_by_damage = response.stiffness_by_damage;
-    bears               = opens ? along + g_n * n : along;
+    bears               = opens ? whole : along;
     traction            = response.stiffness * bears;
     energy              = 0.5 * response.stiffness * bears.squaredNorm();
     pressure            = opens ? -response.stiffness * g_n : 0.;
@@ -50,7 +49,7 @@ namespace Debond
     ddamage << response.damage_by_normal * n.transpose() +
                  response.damage_by_tangential * direction.transpose(),
       (response.damage_by_normal * whole.transpose() -
-       response.damage_by_tangential * height * direction.transpose()) *
+       response.damage_by_tangential * g_n * direction.transpose()) *
         dn;
     Eigen::Matrix<double, 3, 9> dbears = Eigen::Matrix<double, 3, 9>::Zero();
     dbears.leftCols<3>()               = Matrix3d::Identity();
@@ -58,10 +57,8 @@ namespace Debond
       {
         dbears.leftCols<3>() -= n * n.transpose();
         dbears.rightCols<6>() =
-          -(n * whole.transpose() + height * Matrix3d::Identity()) * dn;
+          -(n * whole.transpose() + g_n * Matrix3d::Identity()) * dn;
       }
-    else
-      dbears.rightCols<6>() = -gap_at_start * dn;
     dt = response.stiffness * dbears +
          response.stiffness_by_damage * bears * ddamage;
   }

@@ -51,12 +51,13 @@ namespace Debond
     if (law.joint->is_cohesive())
       shares.resize(points.size());
     for (const Side side : both_sides)
-      // no forces before the first evaluate(); their size never changes
+      // no forces before the first evaluate()
       forces[side].setZero(3, mesh[side]->surface().n_control_points());
     // The area of the implant's face [mm^2], whichever side is the slave: what
     // the mean pressure refers to.
     for (const auto &place : surface_quadrature(implant.surface(), along))
       area_of_implant += place.JxW;
+    find_facets(1e-12 * implant.parameters().characteristic_radius());
   }
 
 
@@ -191,6 +192,7 @@ namespace Debond
   //
   // The sum over both sides bounds how much closer [mm] any point of one
   // surface can have come to any point of the other since the accepted state.
+  // What is taken off at the start turns with points of the frame 1 mm apart.
   // It costs a pass over the control points, where projecting all points again
   // would cost an iteration for each.
   double
@@ -202,7 +204,7 @@ namespace Debond
                .colwise()
                .norm()
                .maxCoeff();
-    return sum;
+    return (1. + 4. * at_start.largest_gap) * sum;
   }
 
 
@@ -258,6 +260,11 @@ namespace Debond
   // first time. A gap that facets account for is none: bonds would else hold,
   // and a press fit press, where meshes match only. Without these it stays, as
   // an implant may be made larger than the hole for it.
+  //
+  // It is a vector G in the frame of the slave, taken off by the basis of the
+  // point: origin o of the frame and ends of its axes follow the control
+  // points, and x' = sum N_A x_A + sum G_k (o - (o + e_k)) = x - Q G. So forces
+  // act at x', with its lever arm.
   void
   ContactInterface::find_facets(const double touch_tolerance)
   {
@@ -272,11 +279,14 @@ namespace Debond
     const bool takes_off = law.joint->pulls() || parameters.has_interference();
     bool       fits      = true;
     double     lowest = std::numeric_limits<double>::max(), highest = -lowest;
+    const Eigen::Vector2d *guess = nullptr;
     for (SlavePoint &point : points)
       {
-        const Projection rest = project(master, point.X, &point.accepted.xi);
+        const Projection rest = project(master, point.X, guess);
         if (!rest.faces)
           continue;
+        point.accepted.xi = rest.xi;
+        guess             = &point.accepted.xi;
         const double facets =
                        own[point.element] + errors[surface.element_of(rest.xi)],
                      gap = std::abs(rest.height);
@@ -285,10 +295,15 @@ namespace Debond
         fits             = fits && gap <= facets + touch_tolerance;
         lowest           = std::min(lowest, rest.height);
         highest          = std::max(highest, rest.height);
-        if (takes_off && gap <= facets && gap > touch_tolerance) // no rounding
+        const Eigen::Vector3d G = point.X - surface.point(rest.xi);
+        if (!takes_off || gap > facets || G.norm() <= touch_tolerance)
+          continue;
+        at_start.largest_gap = std::max(at_start.largest_gap, G.norm());
+        unsigned int number  = mesh[slave]->surface().n_control_points();
+        for (const double N : {G.sum(), -G[0], -G[1], -G[2]})
           {
-            point.gap_at_start   = rest.height;
-            at_start.largest_gap = std::max(at_start.largest_gap, gap);
+            point.basis.control_point[point.basis.size] = number++;
+            point.basis.N[point.basis.size++]           = N;
           }
       }
     if (fits && !takes_off)
@@ -358,8 +373,6 @@ namespace Debond
         if (point.accepted.has_partner)
           neighbour = &point;
       }
-    at_start = {};
-    find_facets(touch_tolerance);
     assign_bonding();
     for (SlavePoint &point : points)
       {
@@ -367,7 +380,7 @@ namespace Debond
         if (!point.accepted.has_partner)
           continue;
         at_start.facing_area += point.JxW;
-        const double gap = point.trial.normal_gap -= point.gap_at_start;
+        const double gap = point.trial.normal_gap;
         // faces that touch have grown together; what overlaps has touched once
         // it is in equilibrium
         if (std::abs(gap) <= touch_tolerance)
@@ -405,8 +418,9 @@ namespace Debond
       const ContactPointLaw        &law;
       const Side                    slave;
       const MasterSurface           master;
-      const RigidMotion             rigid;
+      const Place                   start; ///< of the implant
       const InterfaceConfiguration &configuration;
+      const RigidMotion rigid{start, Place::of_implant(configuration)};
 
       /** That of the master at rest at @p xi, as its frame has turned. */
       RigidMotion::Normal
@@ -450,7 +464,6 @@ namespace Debond
              ContactPointMode         mode,
              ContactPointResult      &result) const
       {
-        mode.gap_at_start = point.gap_at_start;
         if (law.slip_direction == SlipDirection::integrated)
           {
             const RigidMotion::Normal n = normal(start.xi);
@@ -529,11 +542,9 @@ namespace Debond
           leave_open(law, point.accepted, result);
           return;
         }
-      ContactPointState entered;
-      if (!point.accepted.has_partner)
-        entered = entry(point, configuration);
-      const ContactPointState &start =
-        point.accepted.has_partner ? point.accepted : entered;
+      const ContactPointState start = point.accepted.has_partner ?
+                                                point.accepted :
+                                                entry(point, configuration);
       step.update(point,
                   start,
                   interpolate(point.basis, accepted_positions[slave]),
@@ -579,7 +590,6 @@ namespace Debond
     CohesiveShare    &share = shares[q];
     share.update(*law.joint,
                  point.begin(*law.joint, mode),
-                 point.gap_at_start,
                  interpolate(point.basis, configuration.side[slave].positions),
                  master(configuration));
     if (!share.holds)
@@ -690,9 +700,8 @@ namespace Debond
     if (master_is_flat || trial.state.status == PointStatus::open ||
         point.accepted.status == PointStatus::open)
       return 0.;
-    const double h = point.accepted.normal_gap, height = h + point.gap_at_start,
-                 eps_t = law.tangential_penalty;
-    const auto gap     = [&](const NodalSums &at, const SurfaceBasis &y) {
+    const double h = point.accepted.normal_gap, eps_t = law.tangential_penalty;
+    const auto   gap = [&](const NodalSums &at, const SurfaceBasis &y) {
       return Eigen::Vector3d(interpolate(point.basis, at[slave]) -
                              interpolate(y, at[master_side()]));
     };
@@ -705,9 +714,9 @@ namespace Debond
     const PointStart start        = point.begin(*law.joint, mode_now);
     const double     p            = law.joint->respond(start, h, 0.).pressure;
     double           work         = 0.;
-    if (height != 0. && m.norm() > mode_now.touch_tolerance)
-      work = m.dot(old_t) - (1. + p / (eps_t * height)) *
-                              along_n.dot(trial.tangential_traction);
+    if (h != 0. && m.norm() > mode_now.touch_tolerance)
+      work = m.dot(old_t) -
+             (1. + p / (eps_t * h)) * along_n.dot(trial.tangential_traction);
     if (const CohesiveShare *const share = held_share(point))
       {
         const Eigen::Vector3d old_gap = old_Q * share->gap;

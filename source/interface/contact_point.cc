@@ -137,10 +137,7 @@ namespace Debond
       PointFriction
       friction(const double phi_0) const
       {
-        return {*law.joint,
-                begin(phi_0),
-                viscous_stiffness(law, mode),
-                mode.gap_at_start};
+        return {*law.joint, begin(phi_0), viscous_stiffness(law, mode)};
       }
 
       // What the step starts from. The master has taken the parts of the old
@@ -198,8 +195,8 @@ namespace Debond
       {
         // g_n and p: the spring eps_n pushes while g_n < 0; a law with strength
         // in tension pulls beyond.
-        const Vector3d &n      = normal.n;
-        const double    height = n.dot(gap), g_n = height - mode.gap_at_start;
+        const Vector3d &n     = normal.n;
+        const double    g_n   = n.dot(gap);
         const double    eps_n = -response.pressure_by_gap,
                      eps_t    = law.tangential_penalty;
         // xi_hat = xi_hat^n and g_s = g_s^n. The spring eps_t holds the point
@@ -215,7 +212,7 @@ namespace Debond
         result.viscous_pressure    = response.viscous_pressure;
         result.state.gap           = normal.parts(gap);
         result.softening           = 0.;
-        result.tangential_traction = eps_t * (gap - height * n);
+        result.tangential_traction = eps_t * (gap - g_n * n);
         result.traction = -response.pressure * n + result.tangential_traction;
         // the potential that Eq. (28) comes from
         result.energy = response.energy +
@@ -224,7 +221,7 @@ namespace Debond
 
         // The tangent follows from g = x - y and n(a_1, a_2) alone, since
         // xi_hat does not move:
-        //   dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t n . g) dn.
+        //   dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t g_n) dn.
         //   dg = dx - dy,   dg_n = n . dg + g . dn.
         // With the penalty law and eps_n = eps_t all but the first term cancel,
         // and dt = eps dg is Eq. (28) differentiated. Otherwise the turning of
@@ -234,7 +231,7 @@ namespace Debond
         result.dt << eps_t * Matrix3d::Identity() +
                        (eps_n - eps_t) * n * n.transpose(),
           (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
-            (response.pressure + eps_t * height) * dn,
+            (response.pressure + eps_t * g_n) * dn,
           Eigen::Matrix<double, 3, W::size - W::trial_gap>::Zero();
         result.by_damage = {};
         result.dpath.setZero();
@@ -285,11 +282,10 @@ namespace Debond
             // What viscosity carries ends at once where the pressure does. A
             // point that climbs as it slides may find no place on either side
             // of that: it has come to p = 0, and opens.
-            const double g_n = projection.height - mode.gap_at_start;
             if (outcome == SlipOutcome::not_found && projection.faces &&
                 friction.viscous > 0. &&
-                g_n >= law.joint->reach(friction.start, 0.))
-              return open(g_n);
+                projection.height >= law.joint->reach(friction.start, 0.))
+              return open(projection.height);
           }
         // Closed where it has come to: it slides. xi_hat is new, report() adds
         // g_s and traction. The solution of a law that went below mu = 0 would
@@ -357,7 +353,7 @@ namespace Debond
     contract(result.basis, *master.positions, false, geometry);
     const Vector3d     gap = x - geometry.y;
     const MasterNormal normal(geometry, master.outward_sign);
-    const double height = normal.n.dot(gap), g_n = height - mode.gap_at_start;
+    const double       g_n = normal.n.dot(gap);
 
     // If the point stuck, it would carry the trial traction eps_t |g_t|, Eq.
     // (28). It does while that is no more than the L = mu p of Eq. (30), with
@@ -373,7 +369,7 @@ namespace Debond
     const InterfaceResponse response =
       law.joint->respond(friction.start, g_n, 0.);
     const double   limit          = response.limit;
-    const Vector3d tangential_gap = gap - height * normal.n;
+    const Vector3d tangential_gap = gap - g_n * normal.n;
     const double   trial_traction =
       law.tangential_penalty * tangential_gap.norm();
     // In the first iteration of some attempts all closed points are made to

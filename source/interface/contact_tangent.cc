@@ -56,8 +56,11 @@ namespace Debond
     class ColumnsOfPoint
     {
     public:
-      /** @p by_chuck: nodal_motion() of each unknown component. */
+      /** Of the share that rubs; or, with its own xi and the first three of w,
+       *  of one that is held. @p by_chuck: nodal_motion() of each unknown
+       *  component. */
       ColumnsOfPoint(const SlavePoint             &point,
+                     const CohesiveShare          *held,
                      const Side                    slave,
                      const InterfaceConfiguration &configuration,
                      const std::vector<NodalSums> &by_chuck)
@@ -74,9 +77,9 @@ namespace Debond
           add(slave,
               point.basis.control_point[a],
               {point.basis.N[a], 0., 0., point.basis.N[a], 0.});
-        const SurfaceBasis &now = point.trial.basis,
+        const SurfaceBasis &now = held ? held->basis : point.trial.basis,
                            &old = point.trial.old_basis;
-        const bool slips        = slides(point.trial.state.status),
+        const bool slips        = !held && slides(point.trial.state.status),
                    same         = slips && old.element == now.element;
         for (unsigned int b = 0; b < now.size; ++b)
           add(other(slave),
@@ -90,34 +93,6 @@ namespace Debond
           add(other(slave),
               old.control_point[b],
               {0., 0., 0., -old.N[b], along_old_gap(point, b)});
-      }
-
-      /** Of the share that is held, with its own xi: the first three of w. */
-      ColumnsOfPoint(const SlavePoint             &point,
-                     const CohesiveShare          &share,
-                     const Side                    slave,
-                     const InterfaceConfiguration &configuration,
-                     const std::vector<NodalSums> &by_chuck)
-        : configuration(configuration)
-        , by_chuck(by_chuck)
-      {
-        for (const auto &chuck : configuration.chuck_unknowns)
-          {
-            dw.col(n).setZero();
-            number[n++] = chuck.second;
-          }
-        for (unsigned int a = 0; a < point.basis.size; ++a)
-          add(slave,
-              point.basis.control_point[a],
-              {point.basis.N[a], 0., 0., 0., 0.});
-        for (unsigned int b = 0; b < share.basis.size; ++b)
-          add(other(slave),
-              share.basis.control_point[b],
-              {-share.basis.N[b],
-               share.basis.N_1[b],
-               share.basis.N_2[b],
-               0.,
-               0.});
       }
 
       // Of this share; and, as its damage changes the friction of the other
@@ -185,7 +160,7 @@ namespace Debond
           dw.col(k).head<W::turn>() +=
             (by_chuck[k][s].col(control_point) * factors).reshaped();
         const auto           &side  = configuration.side[s];
-        const Eigen::Matrix3d frame = side.turns.empty() ?
+        const Eigen::Matrix3d frame = control_point >= side.turns.size() ?
                                         side.frame :
                                         side.frame * side.turns[control_point];
         for (unsigned int c = 0; c < 3; ++c)
@@ -435,11 +410,11 @@ namespace Debond
         std::optional<ColumnsOfPoint> rubbing;
         if (point.trial.state.status != PointStatus::open)
           {
-            rubbing.emplace(point, slave, configuration, by_chuck);
+            rubbing.emplace(point, nullptr, slave, configuration, by_chuck);
             rubbing->add_tangent(point, matrix);
           }
         if (!shares.empty() && shares[q].holds)
-          ColumnsOfPoint(point, shares[q], slave, configuration, by_chuck)
+          ColumnsOfPoint(point, &shares[q], slave, configuration, by_chuck)
             .add_tangent(point,
                          shares[q],
                          rubbing ? &*rubbing : nullptr,

@@ -189,7 +189,7 @@ namespace Debond
     const Eigen::Vector3d n = MasterNormal(geometry, surface.outward_sign).n;
     return {n,
             interpolate(point.basis, configuration.side[slave].positions) -
-              geometry.y - point.gap_at_start * n,
+              geometry.y,
             chuck.over_master(interpolate(point.basis, before), slave)};
   }
 

@@ -39,8 +39,7 @@ namespace Debond
     , gap(x - geometry.y)
     , trial_gap(x - y_old)
   {
-    height = normal.n.dot(gap);
-    g_n    = height - friction.gap_at_start;
+    g_n = normal.n.dot(gap);
     if (law.slip_direction == SlipDirection::integrated)
       integrate_slip();
     else
@@ -61,7 +60,7 @@ namespace Debond
   {
     axes.col(0)                    = geometry.a1.normalized();
     axes.col(1)                    = normal.n.cross(axes.col(0));
-    const Vector3d          g_t    = gap - height * normal.n;
+    const Vector3d          g_t    = gap - g_n * normal.n;
     const double            length = g_t.norm();
     const InterfaceResponse held =
       friction.law.respond(friction.start, g_n, 0.);
@@ -144,7 +143,7 @@ namespace Debond
         change.gap     = by.col(5) * along_gap.transpose();
         change.turn    = by.col(6);
         change.normal =
-          -n.dot(g) * held - n.dot(trial_gap - g) * moved - height * change.gap;
+          -n.dot(g) * held - n.dot(trial_gap - g) * moved - g_n * change.gap;
       }
     else
       find_changes_of_direction(by_distance);
@@ -513,8 +512,7 @@ namespace Debond
   SlipProblem::round_off() const
   {
     return 1e-16 * (x.norm() + geometry.a1.norm() + geometry.a2.norm()) *
-           (1. +
-            std::abs(equations->resistance_slope()) / law.tangential_penalty);
+           (1. + std::abs(equations->slope) / law.tangential_penalty);
   }
 
 

@@ -401,10 +401,13 @@ namespace Debond
              const ContactInterface &interface,
              const Chuck            &chuck)
   {
-    const ControlNet        u = control_point_displacement(slave, chuck);
+    ControlNet              u = control_point_displacement(slave, chuck);
     std::vector<SlavePoint> images;
     const auto             &points = interface.points_of_all_sectors(images);
     Fields                  fields = fields_of(interface.get_law());
+    // gaps at the start have no part in it
+    u.conservativeResize(Eigen::NoChange, u.cols() + 4);
+    u.rightCols<4>().setZero();
     fields.insert(
       fields.end(),
       {{"area_mm2", 1}, {"force_N", 3}, {"moment_Nmm", 3}, {"energy_Nmm", 1}});

@@ -122,15 +122,14 @@ namespace Debond
                              ControlNet(2. * (stop - start) - last);
         middle.side[side].positions = (start + stop) / 2. + (first - last) / 8.;
       }
-    const NodalSums difference =
-      interface.difference_of_halves(middle, configuration);
-    Chuck::Vector6 result = Chuck::Vector6::Zero();
-    const auto    &x      = configuration.side[Side::implant].positions;
-    for (unsigned int k = 0; k < 6; ++k)
-      for (unsigned int A = 0; A < x.cols(); ++A)
-        result[k] +=
-          difference[Side::implant].col(A).dot(chuck.velocity(k, x.col(A)));
-    return result;
+    const InterfaceConfiguration moving = with_whole_chuck();
+    Eigen::VectorXd              result =
+      Eigen::VectorXd::Zero(moving.chuck_unknowns.back().second + 1);
+    add_in_unknowns(interface.difference_of_halves(middle, configuration),
+                    moving,
+                    1.,
+                    result);
+    return result.tail<6>();
   }
 
 
@@ -141,10 +140,9 @@ namespace Debond
   Eigen::VectorXd
   CoupledSystem::rates_by_duration(const InterfaceConfiguration &moving)
   {
-    const unsigned int whole_size =
-      unknowns - configuration.chuck_unknowns.size() + 6;
-    Eigen::VectorXd        result = Eigen::VectorXd::Zero(whole_size);
-    const ContactPointMode mode   = interface.mode();
+    Eigen::VectorXd result =
+      Eigen::VectorXd::Zero(moving.chuck_unknowns.back().second + 1);
+    const ContactPointMode mode = interface.mode();
     if (!interface.depends_on_rate() || !(mode.duration > 0.))
       return result;
     const double dt  = 1e-6 * mode.duration;

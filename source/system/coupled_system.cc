@@ -136,6 +136,10 @@ namespace Debond
     configuration.side[Side::implant].positions =
       chuck.map_points(implant.surface().control_points(), v);
     configuration.side[Side::implant].frame = chuck.rotation();
+    if (interface.faces_at_start().largest_gap > 0.)
+      configuration.side[interface.slave_side()].add_frame(
+        interface.slave_side() == Side::implant ? chuck.centre() :
+                                                  Eigen::Vector3d::Zero());
   }
 
 
@@ -159,6 +163,8 @@ namespace Debond
         for (int &number : configuration.side[side].unknown_of)
           if (number >= 0)
             number += first;
+        configuration.side[side].unknown_of.resize(
+          configuration.side[side].positions.size(), -1);
         first += body[side]->n_unknowns();
       }
     configuration.chuck_unknowns.clear();
@@ -326,7 +332,7 @@ namespace Debond
     path.old_slip = path_length();
     interface.commit(configuration);
     press_fit.commit(chuck.rotation().transpose() *
-                     interface.force(Side::implant));
+                     force_on_points(Side::implant));
   }
 
 
@@ -394,7 +400,7 @@ namespace Debond
         // Q^T turns the forces from space into the body's frame. For the bone Q
         // = 1.
         part = body[side]->residual(configuration.side[side].frame.transpose() *
-                                    interface.force(side));
+                                    force_on_points(side));
         if (!part.valid)
           {
             result.why = std::string("a cell of the ") + name_of(side) +
@@ -668,6 +674,15 @@ namespace Debond
 
 
 
+  ControlNet
+  CoupledSystem::force_on_points(const Side side) const
+  {
+    return interface.force(side).leftCols(
+      body[side]->surface().n_control_points());
+  }
+
+
+
   namespace
   {
     /** Sum of forces [N] and of their moments at the given lever arms [N mm].
@@ -675,13 +690,10 @@ namespace Debond
     Chuck::Vector6
     resultant(const ControlNet &force, const ControlNet &arm)
     {
-      Chuck::Vector6 result = Chuck::Vector6::Zero();
-      for (unsigned int A = 0; A < force.cols(); ++A)
-        {
-          const Eigen::Vector3d f = force.col(A), r = arm.col(A);
-          result.head<3>() += f;
-          result.tail<3>() += r.cross(f);
-        }
+      const Eigen::Matrix3d M = arm * force.transpose(); // sum of r f^T
+      Chuck::Vector6        result;
+      result << force.rowwise().sum(), M(1, 2) - M(2, 1), M(2, 0) - M(0, 2),
+        M(0, 1) - M(1, 0);
       return result;
     }
   } // namespace
@@ -744,7 +756,7 @@ namespace Debond
       arm += implant.contact_displacement();
     // what acts where the body is held does not pass through it
     ControlNet force =
-      chuck.rotation().transpose() * interface.force(Side::implant);
+      chuck.rotation().transpose() * force_on_points(Side::implant);
     for (unsigned int A = 0; A < force.cols(); ++A)
       for (unsigned int c = 0; c < 3; ++c)
         if (implant.mesh().is_fixed(implant.mesh().control_point_node(A), c))

@@ -19,9 +19,10 @@ namespace Debond
    */
   struct SurfaceBasis
   {
-    static constexpr unsigned int max_size = 9;
+    static constexpr unsigned int max_size = 9 + 4;
 
-    unsigned int size    = 0; ///< (p+1)^2: 9 biquadratic, 4 bilinear
+    /** (p+1)^2: 9 biquadratic, 4 bilinear; and 4 of a SlavePoint over a gap. */
+    unsigned int size    = 0;
     unsigned int element = 0; ///< element index, first parameter fastest
     std::array<unsigned int, max_size> control_point; ///< global indices
 

@@ -28,7 +28,6 @@ namespace Debond
     void
     update(const InterfaceLaw    &law,
            const PointStart      &start,
-           double                 gap_at_start,
            const Eigen::Vector3d &x,
            const MasterSurface   &master);
 

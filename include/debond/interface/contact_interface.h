@@ -263,7 +263,8 @@ namespace Debond
                          const InterfaceConfiguration &configuration) const;
 
     /** Nodal forces of the last evaluate() on the control points of a side, in
-     *  space, as they enter the residual [N]. */
+     *  space, as they enter the residual [N]; and on the points of its frame,
+     *  which make up a moment. */
     const ControlNet &
     force(const Side side) const
     {
@@ -513,7 +514,8 @@ namespace Debond
     has_opened_beyond_strength(const SlavePoint &point) const;
     void
     assign_bonding();
-    /** Gaps at the start of faces of several elements, which need not fit. */
+    /** Takes off gaps at the start of faces of several elements, which need not
+     *  fit. */
     void
     find_facets(double touch_tolerance);
     /** Gives points of the bone the phi_0 of the implant that they face. */

@@ -82,13 +82,11 @@ namespace Debond
   };
 
   /** A quadrature point of the slave surface: where it lies, its history, and
-   *  what it contributes in the trial state. */
+   *  what it contributes in the trial state. Its basis takes off the gap that
+   *  it has at the start, see ContactInterface::find_facets(). */
   struct SlavePoint : SurfaceQuadraturePoint, SlavePointHistory
   {
-    double phi_0 = 0;
-    /** What facets leave between faces that have grown together, or let them
-     *  overlap by: g_n counts from there [mm]. */
-    double             gap_at_start = 0;
+    double             phi_0 = 0;
     ContactPointResult trial;
     /** False for points of a bone that does not face the implant at the
      *  start: their area does not count. */

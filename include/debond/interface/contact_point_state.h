@@ -86,8 +86,6 @@ namespace Debond
     double turn = 0;
     /** Of the share of the point that is held, at the end of the step. */
     double damage = 0;
-    /** Of the point, see SlavePoint. */
-    double gap_at_start = 0;
 
     /** See saved_state.h. */
     template <class Archive>

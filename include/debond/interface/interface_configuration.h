@@ -19,7 +19,9 @@ namespace Debond
   {
     struct Surface
     {
-      ControlNet positions; ///< spatial positions of the control points [mm]
+      /** Of the control points [mm]; on a slave with gaps that are taken off,
+       *  also of the origin and of three points of its frame. */
+      ControlNet      positions;
       Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< Q of the body
       /** By which the frame of each control point is turned against that;
        * empty: none is. */
@@ -27,6 +29,14 @@ namespace Debond
       /** For 3 (control point) + component (body frame): number in the coupled
        *  system, -1: none. */
       std::vector<int> unknown_of;
+
+      /** Adds the origin of the frame and its ends, 1 mm away. */
+      void
+      add_frame(const Eigen::Vector3d &origin)
+      {
+        positions.conservativeResize(Eigen::NoChange, positions.cols() + 4);
+        positions.rightCols<4>() << origin, frame.colwise() + origin;
+      }
     };
     std::array<Surface, 2> side;
     /** Numbers of the chuck components that are unknowns. */

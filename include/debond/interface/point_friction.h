@@ -14,8 +14,7 @@ namespace Debond
   {
     const InterfaceLaw &law;
     PointStart          start;
-    double              viscous      = 0.; ///< eta / dt [MPa/mm]
-    double              gap_at_start = 0.; ///< see SlavePoint [mm]
+    double              viscous = 0.; ///< eta / dt [MPa/mm]
     /** The gap of the step before, where the master has taken it [mm]. */
     Eigen::Vector3d old_gap = Eigen::Vector3d::Zero();
     // For slip that is integrated over the step: the length at which the point

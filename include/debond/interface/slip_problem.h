@@ -121,15 +121,6 @@ namespace Debond
              (law.tangential_penalty + friction.viscous);
     }
 
-    /** d(L + eta / dt * distance)/d(distance) [MPa/mm]: how the limit of
-     *  the traction changes as the point slides; negative where the bond
-     *  breaks. */
-    double
-    resistance_slope() const
-    {
-      return slope;
-    }
-
     // What the point has come to at the trial place. h has to vanish: it is
     // the part of g - t_t / eps_t [mm] along a_alpha, and of the excess. The
     // response is that at the updated sliding distance, Eq. (32). Tractions are
@@ -137,11 +128,12 @@ namespace Debond
     // minus those that act on the slave. The viscous part is kept apart for the
     // works.
     Eigen::Vector2d    h;
-    double             height, g_n; ///< n . g, less the gap at the start [mm]
+    double             g_n; ///< [mm]
     InterfaceResponse  response;
     const MasterNormal normal;
     Eigen::Vector3d    slip;     ///< y - y_n [mm]
     double             distance; ///< g_s - g_s^n [mm]
+    double             slope;    ///< d(L + eta / dt * distance) by it [MPa/mm]
     Eigen::Vector3d    traction, tangential_traction, viscous_traction;
     /** What the step comes to where slip is integrated over it. */
     std::optional<TowedGap> towed;
@@ -206,7 +198,6 @@ namespace Debond
     // excess may have a part along n only, as g - t_t / eps_t in Eq. (29).
     Eigen::Vector3d forward; ///< d(distance)/d(y - y_n)
     double          limit;   ///< L + eta / dt times the distance [MPa]
-    double          slope;   ///< its derivative [MPa/mm]
     Eigen::Vector3d excess;  ///< g - t / eps_t [mm]
     Eigen::Matrix<double, 3, 2> tangents; ///< a_1, a_2
 

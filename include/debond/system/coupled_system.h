@@ -291,6 +291,9 @@ namespace Debond
   private:
     void
     update_configuration();
+    /** Those of interface.force() that act on the body itself. */
+    ControlNet
+    force_on_points(Side side) const;
     double
     evaluate_chuck(Residual &residual);
     Eigen::VectorXd

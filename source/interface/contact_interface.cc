@@ -779,12 +779,11 @@ namespace Debond
         works.dissipation += couple;
         works.friction += couple;
         // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
-        // with: tangential traction and pressure [MPa], stored energy [N/mm].
+        // with: tangential traction and viscous pressure [MPa].
         point.accepted          = trial.state;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =
           Q.transpose() * trial.viscous_traction;
-        point.accepted_energy           = trial.energy;
         point.accepted_viscous_pressure = trial.viscous_pressure;
         // What is open forgets its interacting point, or it would be pulled
         // back to it when it closes again somewhere else: the gap to the old

@@ -156,6 +156,9 @@ namespace Debond
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
+        summary.n_beyond += point.accepted.has_partner ? 0 : point.n_images;
+        if (point.faces_implant != point.accepted.has_partner)
+          summary.n_crossed += point.n_images;
         if (const CohesiveShare *const share = held_share(point))
           summary.energy += point.JxW * share->energy;
         if (tension.strength > 0. && tension.viscosity == 0. &&

@@ -335,7 +335,8 @@ namespace Debond
         // scene allows. The solver has taken the trial back already.
         if (!result.is_acceptable())
           {
-            if (result.hopeless || !step_control.reject(step))
+            if (result.hopeless ||
+                !step_control.reject(step, result.interface.n_beyond > 0))
               give_up(step, result);
           }
         // There is a state. The control may still refuse it, because the curve
@@ -436,7 +437,8 @@ namespace Debond
     if (scene.load_steps.rows_are_planned())
       message << " of " << scene.load_steps.n_steps();
     message << " failed at time "
-            << (step.by_slip() ? coupled_system.time() : step.whole_time)
+            << (scene.load_steps.rows_are_planned() ? step.whole_time :
+                                                      coupled_system.time())
             << ", angle "
             << chuck.position()[ChuckComponent::rotation_z] * 180. / M_PI
             << " deg, with the smallest allowed part of a step: " << result.why;
@@ -453,18 +455,17 @@ namespace Debond
         << ". Where friction falls with the speed faster than the springs "
            "pull there is no quasi-static solution; Interface / Viscosity "
            "limits the speed";
-    const auto  &points   = coupled_system.interface.get_points();
-    unsigned int n_beyond = 0;
-    for (const SlavePoint &point : points)
-      if (point.faces_implant && !point.accepted.has_partner)
-        n_beyond += point.n_images;
-    if (n_beyond > 0)
+    const Side slave = coupled_system.interface.slave_side();
+    if (result.interface.n_crossed > 0)
       message
-        << ". " << n_beyond
-        << " points of the contact face are beyond the edge of the bone. "
-           "One that crosses it loses its force at once, and between with "
-           "and without it there may be no equilibrium. If no edge is "
-           "meant, enlarge Bone / Size";
+        << ". " << result.interface.n_crossed << " points of the "
+        << name_of(slave) << " have crossed the edge of the "
+        << name_of(other(slave))
+        << ". One that does gains or loses its force at once, and between with "
+           "and without it there may be no equilibrium. "
+        << (slave == Side::implant ?
+              "If no edge is meant, enlarge Bone / Size" :
+              "With Slave = implant they stay on the implant");
     throw RunError(message);
   }
 

@@ -43,9 +43,10 @@ namespace Debond
           }
         if (!unfinished.empty())
           refuse("it is cut off within an element");
-        for (const auto &[name, sides] : surfaces)
-          for (const auto &side : sides)
-            add_faces(side, mesh.groups[name]);
+        if (mesh.other_solids.empty()) // surfaces may be theirs; refused later
+          for (const auto &[name, sides] : surfaces)
+            for (const auto &side : sides)
+              add_faces(side, mesh.groups[name]);
       }
 
       StoredMesh mesh;

@@ -325,7 +325,7 @@ namespace Debond
       return std::min(std::pow(0.8 / std::max(curve, 1e-12), 0.25),
                       std::pow(0.8 / std::max(at_end, 1e-12), 0.5));
     };
-    if (taken > smallest() * (1. + 1e-9))
+    if (!leaps && taken > smallest() * (1. + 1e-9))
       {
         if (drawn <= 1.)
           at_end = error_at_end(state);
@@ -339,6 +339,7 @@ namespace Debond
     if (second) // of the parabola that was drawn
       current.rates =
         2. / taken * (last.answers - current.answers) - last.rates;
+    leaps        = false;
     is_resolved  = drawn <= 1.;
     previous     = current;
     bend_before  = second ? 0. : bend;
@@ -364,12 +365,14 @@ namespace Debond
 
 
   bool
-  AdaptiveStepping::reject(const Step &step)
+  AdaptiveStepping::reject(const Step &step, const bool has_edge)
   {
     const double tried = step.whole_time - time;
-    if (tried <= smallest() * (1. + 1e-9))
+    const bool   fails = tried <= smallest() * (1. + 1e-9);
+    leaps              = leaps || (fails && has_edge);
+    if (leaps ? step.whole_time == turn || size == planned : fails)
       return false;
-    set_size(0.5 * tried);
+    set_size((leaps ? 2. : 0.5) * tried);
     return true;
   }
 } // namespace Debond

@@ -88,7 +88,7 @@ namespace Debond
 
 
   bool
-  PathFollowing::reject(const Step &step)
+  PathFollowing::reject(const Step &step, const bool)
   {
     if (!step.by_slip())
       return reject_time(step);

@@ -59,7 +59,7 @@ namespace Debond
 
 
   bool
-  PlannedSteps::reject(const Step &)
+  PlannedSteps::reject(const Step &, const bool)
   {
     size *= 0.5;
     return size >= parameters.smallest_step_fraction;

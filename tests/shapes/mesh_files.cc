@@ -702,7 +702,12 @@ main()
             ".inp");
   refused("node twice", "*Node\n1, 0, 0, 0\n1, 0, 0, 1\n", ".inp");
   refused("no coordinates", "*Node\n1, 0, 0\n", ".inp");
-  refused("tetrahedra", "*Element, type=C3D4\n1, 1, 2, 3, 4\n", ".inp");
+  // also where faces of them are named, before or after
+  for (const std::string type : {"C3D4", "C3D6", "S4R"})
+    refused("faces of " + type,
+            "*Surface, name=contact, type=element\n1, S1\n*Element, type=" +
+              type + "\n1, 1, 2, 3, 4\n",
+            ".inp");
   // whatever else resists is as little left out; what only names faces is
   for (const std::string type :
        {"SC8R", "COH3D8", "S4R", "M3D4", "R3D4", "B31", "SPRINGA", "U1"})

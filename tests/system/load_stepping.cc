@@ -31,7 +31,7 @@ take(PlannedSteps &control, const double start, const double largest)
           times.push_back(step.time);
           control.take(step, StepState(), 0);
         }
-      else if (!control.reject(step))
+      else if (!control.reject(step, false))
         return {};
     }
   while (!control.row_is_complete());
@@ -405,7 +405,7 @@ main()
   PlannedSteps growing(parameters);
   growing.begin_phase(StepState());
   for (unsigned int n = 0; n < 2; ++n)
-    growing.reject(growing.next());
+    growing.reject(growing.next(), false);
   report("Grows again on its grid",
          are(take(growing, 0.1, 1.), {0.2, 0.3, 0.5}));
   report("The next step is whole", are(take(growing, 0.5, 1.), {plan[2]}));
@@ -417,7 +417,7 @@ main()
   PlannedSteps small(parameters);
   small.begin_phase(StepState());
   unsigned int n = 0;
-  while (small.reject(small.next()))
+  while (small.reject(small.next(), false))
     ++n;
   std::cout << "Can be halved " << n << " times" << std::endl;
   PlannedSteps allowed(parameters), forbidden(parameters);

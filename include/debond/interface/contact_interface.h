@@ -47,6 +47,8 @@ namespace Debond
      *  [mm]. */
     unsigned int n_from_side = 0;
     double       side_depth  = 0;
+    /** Points beyond the edge of the master, and those that crossed it. */
+    unsigned int n_beyond = 0, n_crossed = 0;
   };
 
   /** Area mean of the sliding distance g_s and, of laws with strength in

@@ -77,7 +77,6 @@ namespace Debond
      */
     Eigen::Vector3d accepted_traction         = Eigen::Vector3d::Zero();
     Eigen::Vector3d accepted_viscous_traction = Eigen::Vector3d::Zero();
-    double          accepted_energy           = 0; ///< [N/mm]
     double          accepted_viscous_pressure = 0; ///< [MPa]
   };
 
@@ -121,8 +120,7 @@ namespace Debond
       else
         {
           archive &accepted &clearance       &accepted_traction;
-          archive &accepted_viscous_traction &accepted_energy;
-          archive                            &accepted_viscous_pressure;
+          archive &accepted_viscous_traction &accepted_viscous_pressure;
           // what a run that has ended still writes
           archive &trial.pressure &trial.tangential_traction;
           if (Archive::is_loading::value)

@@ -81,9 +81,10 @@ namespace Debond
     virtual bool
     take(const Step &step, const StepState &state, unsigned int iterations) = 0;
     /** Makes the step smaller because it could not be solved; false if it
-     *  cannot be smaller. */
+     *  cannot be smaller. @p has_edge: points may cross the edge of a face, and
+     *  have no state where they do. */
     virtual bool
-    reject(const Step &step) = 0;
+    reject(const Step &step, bool has_edge) = 0;
 
     /** Whether the step that was taken is the last one of its row. */
     virtual bool
@@ -162,7 +163,7 @@ namespace Debond
     bool
     take(const Step &step, const StepState &, unsigned int) override;
     bool
-    reject(const Step &) override;
+    reject(const Step &, bool) override;
     bool
     row_is_complete() const override
     {
@@ -233,9 +234,9 @@ namespace Debond
      *  the step has to be smaller, if it can. */
     bool
     take(const Step &, const StepState &state, unsigned int) override;
-    /** Halves the step. */
+    /** Halves the step, or doubles the smallest one over an edge. */
     bool
-    reject(const Step &) override;
+    reject(const Step &, bool has_edge) override;
     /** Not where even the smallest step was too large: there is a jump, and a
      *  cubic would swing. */
     StepShape
@@ -322,6 +323,7 @@ namespace Debond
      * fourth power of the step. */
     double bend = 0, bend_before = 0;
     bool   has_middle = false;
+    bool   leaps      = false; ///< over an edge: is doubled until it is solved
     Forces greatest = Forces::Zero(), furthest = Forces::Zero(); ///< so far
     Forces first_drive  = Forces::Zero();
     Forces drive_change = Forces::Zero(); ///< largest so far
@@ -359,7 +361,7 @@ namespace Debond
          const StepState &state,
          unsigned int     iterations) override;
     bool
-    reject(const Step &step) override;
+    reject(const Step &step, bool) override;
     bool
     is_finished() const override
     {

@@ -340,9 +340,14 @@ class Problem:
         return [unknowns.starts, *(unknowns.from_search(lower + share * (upper - lower)) for share in shares)]
 
     def distinct(self, ends):
-        """Those that end at the same curve are one; best first."""
-        result = []
-        for end in sorted((end for end in ends if not end.why), key=lambda end: end.cost):
+        """Those that end at the same curve are one; best first, and of those that differ by rounding the one closest to where
+        the scene starts: of unknowns that the curves do not tell apart, any values would do."""
+        start, result = self.unknowns.to_search(self.unknowns.starts), []
+
+        def rank(end):
+            return float(f"{end.cost:.9g}"), numpy.linalg.norm(self.unknowns.to_search(end.values) - start)
+
+        for end in sorted((end for end in ends if not end.why), key=rank):
             apart = [end.curve - other.curve for other in result]
             if all(numpy.linalg.norm(self.weights * d) >= 0.2 * numpy.sqrt(2 * end.cost)
                    and numpy.linalg.norm(d) >= 1e-4 * numpy.linalg.norm(end.curve) for d in apart):

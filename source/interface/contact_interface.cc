@@ -2,7 +2,6 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/rigid_motion.h>
-#include <debond/shapes/faces_of_mesh.h>
 
 #include <Eigen/Geometry>
 
@@ -209,142 +208,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    /** How far each element of several may be off the surface that all stand
-     *  for [mm]. Plane facets of a circle bulge by 1 - cos(theta/2) of its
-     *  radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above the
-     *  plane of its neighbour: three times that or more, up to theta = 60
-     *  degrees, from where on there is an edge. Both directions add up.
-     *  Elements that are curved themselves: a twentieth. */
-    std::vector<double>
-    errors_of_facets(const NurbsSurface &surface)
-    {
-      std::vector<double> result(surface.n_elements(), 0.);
-      if (surface.is_one_patch())
-        return result;
-      const auto middles = surface_quadrature(surface, dealii::QMidpoint<1>());
-      for (const auto &middle : middles)
-        {
-          SurfaceGeometry here;
-          contract(middle.basis, surface.control_points(), false, here);
-          const Eigen::Vector3d n = here.a1.cross(here.a2).normalized();
-          for (const unsigned int d : {0, 1})
-            {
-              double highest = 0.;
-              for (const auto &corner : surface.element_bounds(middle.element))
-                {
-                  Eigen::Vector2d xi = middle.xi;
-                  xi[d]              = corner[d];
-                  for (const auto &place :
-                       surface.places_beside(middle.element, xi))
-                    {
-                      const Eigen::Vector3d way =
-                        middles[place.element].X - here.y;
-                      const double height = std::abs(n.dot(way));
-                      if (height < 0.5 * way.norm())
-                        highest = std::max(highest, height);
-                    }
-                }
-              result[middle.element] +=
-                highest / (surface.degree() == 1 ? 3. : 60.);
-            }
-        }
-      return result;
-    }
-  } // namespace
-
-
-
-  // Where the bodies are made, whatever the chuck and a press fit do at the
-  // first time. A gap that facets account for is none: bonds would else hold,
-  // and a press fit press, where meshes match only. Without these it stays, as
-  // an implant may be made larger than the hole for it.
-  //
-  // It is a vector G in the frame of the slave, taken off by the basis of the
-  // point: origin o of the frame and ends of its axes follow the control
-  // points, and x' = sum N_A x_A + sum G_k (o - (o + e_k)) = x - Q G. So forces
-  // act at x', with its lever arm.
-  void
-  ContactInterface::find_facets(const double touch_tolerance)
-  {
-    const NurbsSurface &surface = mesh[master_side()]->surface();
-    if (surface.is_one_patch() && mesh[slave]->surface().is_one_patch())
-      return; // smooth
-    const std::vector<double> errors = errors_of_facets(surface),
-                              own    = errors_of_facets(mesh[slave]->surface());
-    const MasterSurface master{&surface,
-                               &surface.control_points(),
-                               mesh[master_side()]->outward_sign()};
-    const bool takes_off = law.joint->pulls() || parameters.has_interference();
-    bool       fits      = true;
-    double     lowest = std::numeric_limits<double>::max(), highest = -lowest;
-    const Eigen::Vector2d *guess = nullptr;
-    for (SlavePoint &point : points)
-      {
-        const Projection rest = project(master, point.X, guess);
-        if (!rest.faces)
-          continue;
-        point.accepted.xi = rest.xi;
-        guess             = &point.accepted.xi;
-        const double facets =
-                       own[point.element] + errors[surface.element_of(rest.xi)],
-                     gap = std::abs(rest.height);
-        at_start.facets  = std::max(at_start.facets, facets);
-        at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
-        fits             = fits && gap <= facets + touch_tolerance;
-        lowest           = std::min(lowest, rest.height);
-        highest          = std::max(highest, rest.height);
-        const Eigen::Vector3d G = point.X - surface.point(rest.xi);
-        if (!takes_off || gap > facets || G.norm() <= touch_tolerance)
-          continue;
-        at_start.largest_gap = std::max(at_start.largest_gap, G.norm());
-        unsigned int number  = mesh[slave]->surface().n_control_points();
-        for (const double N : {G.sum(), -G[0], -G[1], -G[2]})
-          {
-            point.basis.control_point[point.basis.size] = number++;
-            point.basis.N[point.basis.size++]           = N;
-          }
-      }
-    if (fits && !takes_off)
-      at_start.uneven = std::max(0., highest - lowest);
-  }
-
-
-
-  // The bone has the faces on which nothing lies, too, and a block its top.
-  double
-  ContactInterface::area_left_out() const
-  {
-    if (implant().shape != BodyShape::file)
-      return 0.;
-    const auto boundary = [this](const Side side, const FacesOfMesh which) {
-      const NurbsSurface &contact = mesh[side]->surface();
-      const auto         &cells   = mesh[side]->parameters().mesh;
-      return cells ? contact_surface_of(*cells, contact.degree(), side, which) :
-                     contact;
-    };
-    const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
-                       bone   = boundary(Side::bone, FacesOfMesh::all);
-    const std::vector<double> own    = errors_of_facets(others),
-                              errors = errors_of_facets(bone);
-    const MasterSurface master{&bone,
-                               &bone.control_points(),
-                               mesh[Side::bone]->outward_sign()};
-    double              sum = 0.;
-    for (const auto &face : surface_quadrature(others, dealii::QMidpoint<1>()))
-      {
-        const Projection at = project(master, face.X, nullptr);
-        if (at.faces && std::abs(at.height) <=
-                          own[face.element] + errors[bone.element_of(at.xi)] +
-                            1e-6 * std::sqrt(face.JxW))
-          sum += face.JxW;
-      }
-    return sum;
-  }
-
-
-
   // "At initial contact the interacting point is the closest projection point"
   // (paper, after Eq. 28).
   //
@@ -402,23 +265,10 @@ namespace Debond
     /** A step of the points to a configuration. */
     struct StepOfPoints
     {
-      /** @p from: the implant's place before the step. */
-      StepOfPoints(const ContactPointLaw        &law,
-                   const Side                    slave,
-                   const MasterSurface          &master,
-                   const Place                  &from,
-                   const InterfaceConfiguration &configuration)
-        : law(law)
-        , slave(slave)
-        , master(master)
-        , rigid(from, Place::of_implant(configuration))
-        , configuration(configuration)
-      {}
-
       const ContactPointLaw        &law;
       const Side                    slave;
       const MasterSurface           master;
-      const Place                   start; ///< of the implant
+      const Place                   start; ///< the implant's, before the step
       const InterfaceConfiguration &configuration;
       const RigidMotion rigid{start, Place::of_implant(configuration)};
 
@@ -524,11 +374,11 @@ namespace Debond
     // judged and when it is committed.
     const double moved = motion(configuration);
     mode_now           = mode;
-    const StepOfPoints step(law,
+    const StepOfPoints step{law,
                             slave,
                             master(configuration),
                             {accepted_frame, accepted_centre},
-                            configuration);
+                            configuration};
     const auto         update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint         &point  = points[q];
       ContactPointResult &result = point.trial;
@@ -614,9 +464,9 @@ namespace Debond
     InterfaceConfiguration first = middle, last = configuration;
     first.chuck_unknowns.clear(); // no derivatives
     last.chuck_unknowns.clear();
-    const StepOfPoints first_step(
-      law, slave, master(first), {accepted_frame, accepted_centre}, first),
-      last_step(law, slave, master(last), Place::of_implant(first), last);
+    const StepOfPoints first_step{
+      law, slave, master(first), {accepted_frame, accepted_centre}, first},
+      last_step{law, slave, master(last), Place::of_implant(first), last};
     ContactPointMode mode = mode_now;
     mode.duration *= 0.5;
     const auto update = [&](const unsigned int q, NodalSums &sums) {
@@ -666,11 +516,11 @@ namespace Debond
     tangent_is_gathered = false;
     if (law.slip_direction != SlipDirection::integrated)
       return;
-    const StepOfPoints step(law,
+    const StepOfPoints step{law,
                             slave,
                             master(configuration),
                             {accepted_frame, accepted_centre},
-                            configuration);
+                            configuration};
     for (SlavePoint &point : points)
       if (slides(point.trial.state.status))
         {

@@ -1,5 +1,4 @@
 #include <debond/interface/contact_interface.h>
-#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <array>
@@ -292,23 +291,6 @@ namespace Debond
         summary.n_from_side += point.n_images;
         summary.side_depth = std::max(summary.side_depth, depth);
       }
-  }
-
-
-
-  std::string
-  FacesAtStart::in_words(const bool pulls) const
-  {
-    const std::string bonded =
-      pulls ? "bonded in tension: " + std::to_string(n_bonded) + " points, " +
-                to_text(bonded_area, 4) + " of " + to_text(bonding_area, 4) +
-                " mm^2" :
-              "";
-    return largest_gap == 0. ?
-             bonded :
-             bonded + (pulls ? "; " : "") + "gaps between the faces of up to " +
-               to_text(largest_gap, 2) + " mm are taken off (facets account " +
-               "for " + to_text(facets, 2) + " mm)";
   }
 
 

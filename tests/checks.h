@@ -2,15 +2,21 @@
 #define debond_tests_checks_h
 
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <random>
 #include <string>
 
 /** One line of output that is the same on all machines as long as @p deviation
- *  is below @p limit; the value itself appears only if it is not. */
+ *  is below @p limit; the value itself appears only if it is not, and in the
+ *  file DEBOND_TEST_NUMBERS, which spread.py reads. */
 inline void
 report(const std::string &what, const double deviation, const double limit)
 {
+  if (const char *const file = std::getenv("DEBOND_TEST_NUMBERS"))
+    std::ofstream(file, std::ios::app)
+      << deviation << ",-inf," << limit << "," << what << std::endl;
   std::cout << what << " below " << limit << ": ";
   if (deviation < limit) // false for NaN as well
     std::cout << "yes" << std::endl;

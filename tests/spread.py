@@ -4,7 +4,8 @@ the edge of its band.
 
 A configuration is a build, the kernels of OpenBLAS, and a number of threads. Kernels of another processor round in another
 way; those of an older one run everywhere. Numbers are those of `# expect:` and `# judge:` comments, with the band that
-the comment states, and those that compare.sh compares, with its tolerances. In the list, sorted by the margin:
+the comment states, those that compare.sh compares, with its tolerances, and deviations that programs report, with their
+limits. In the list, sorted by the margin:
 
   margin     least distance from an edge of the band, in spreads; 0 where some are inside and others outside
   spread     largest less smallest value (of the distances from an edge that is computed, too)
@@ -49,6 +50,7 @@ def run(command, where, build, results, environment):
     own = os.path.join(results, os.path.relpath(directory, build))
     shutil.rmtree(own, ignore_errors=True)
     os.makedirs(own)
+    environment = {**environment, 'DEBOND_TEST_NUMBERS': os.path.join(own, 'reports.csv')}
     with open(own + '.log', 'w') as log:
         code = subprocess.run([own if word == directory else word for word in command], cwd=where, stdout=log,
                               stderr=log, env={**os.environ, **environment}).returncode
@@ -58,12 +60,14 @@ def run(command, where, build, results, environment):
 def numbers_of(command, own):
     """What a test has measured: {what: (value, low, high)}."""
     found = {}
-    if os.path.exists(os.path.join(own, 'expectations.csv')):
-        with open(os.path.join(own, 'expectations.csv')) as file:
-            next(file)
-            for line in file:
-                value, low, high, what = line.rstrip('\n').split(',', 3)
-                found[what] = float(value), float(low), float(high)
+    for name in 'expectations.csv', 'reports.csv':
+        if os.path.exists(os.path.join(own, name)):
+            with open(os.path.join(own, name)) as file:
+                for line in file:
+                    value, low, high, what = line.rstrip('\n').split(',', 3)
+                    if value != 'value':
+                        numbers = float(value), float(low), float(high)
+                        found[what] = max(found.get(what, numbers), numbers)
     expected, output = command[1], os.path.join(own, 'output')
     if command[0].endswith('compare.sh') and os.path.exists(expected) and os.path.exists(output):
         with open(expected) as one, open(output) as other:
@@ -98,7 +102,7 @@ def main():
     parser.add_argument('--kernels', nargs='+', default=['default', 'Prescott'],
                         help='of OpenBLAS: default for those of this processor, Prescott, Haswell, Zen, SkylakeX, ...')
     parser.add_argument('--threads', nargs='+', default=['1'], help='(1)')
-    parser.add_argument('-R', default='verification|shapes|stability', help='tests, a regular expression as of ctest (%(default)s)')
+    parser.add_argument('-R', default='', help='tests, a regular expression as of ctest (all)')
     parser.add_argument('-E', default='', help='tests to be left out')
     parser.add_argument('--margin', type=float, default=3., help='spreads (3)')
     parser.add_argument('--results', default='output/spread', help='directory (output/spread)')

@@ -362,8 +362,8 @@ namespace Debond
     // mu is asked with the distance 0: a law with a state that ages has aged in
     // this step, and for one that depends on the speed this is V = 0. A limit
     // and a traction in MPa are compared, both along the surface as it is now.
-    // Without pressure the limit is 0, and whatever pulls makes the point
-    // slide.
+    // Where the limit is 0 a point slides, even where nothing has moved yet:
+    // rounding would decide what sticks.
     PointFriction           friction = step.friction(phi_0);
     const bool              closed   = step.is_closed(friction.start, g_n, 0.);
     const InterfaceResponse response =
@@ -376,13 +376,10 @@ namespace Debond
     // stick, whatever they would carry: the tangent is then that of bodies
     // joined by springs, and the iteration cannot begin with a cycle of stick
     // and slip. The true law takes over in the next one.
-    // What is pulled and does not rub follows its slave, even where nothing
-    // has moved yet.
-    const bool rubs = limit > 0. || response.pressure >= 0.;
-    if (closed && (mode.stick_first || (rubs && trial_traction <= limit)))
+    const bool holds = limit > 0. && trial_traction <= limit;
+    if (closed && (mode.stick_first || holds))
       step.stick(friction, response, gap, normal);
-    else if (mode.stick_first ||
-             (!closed && limit > 0. && trial_traction <= limit))
+    else if (mode.stick_first || (!closed && holds))
       step.open(g_n); // a bond that is still to form would hold it in place
     else
       {

@@ -248,9 +248,9 @@ namespace Debond
     declare_cells(
       table,
       true,
-      "Number of cells in x, y and z. Of a sleeve: around, radially and "
-      "along its axis. Of a cavity: around (4, 8, 12, ...), radially, and "
-      "along a meridian, from a square at the bottom, a quarter of those "
+      "Number of cells in x, y and z. Of a sleeve: around (8 or more), "
+      "radially and along its axis. Of a cavity: around (8, 12, ...), radially "
+      "and along a meridian, from a square at the bottom, a quarter of those "
       "around across, to the rim. `fitted a, i, o, l': cells of a block that "
       "follow the rim of a coin or cap: a (a multiple of 4) around it, i "
       "from a square core to the rim, o from there to the sides, in l "
@@ -310,8 +310,8 @@ namespace Debond
       false,
       "Number of cells in x, y and z. Two numbers n, m mean n, n, m: of a "
       "coin or cap n across the disk and m along the axis. Of a pin and a "
-      "ring: around, radially and along the axis; around a solid one 4, 8, "
-      "12, ... Of a cup: as Bone / Cells of a cavity. `fitted a, i, l': "
+      "ring: around (8 or more, of a solid one 8, 12, ...), radially and "
+      "along the axis. Of a cup: as Bone / Cells of a cavity. `fitted a, i, l': "
       "cells of a coin that follow its rim, as Bone / Cells. `fitted': 12, "
       "5, 5.");
     declare_material(table, false);

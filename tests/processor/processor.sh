@@ -6,4 +6,4 @@ cd "$(dirname "$scene")/.." || exit 1
 "$qemu" -cpu kvm64 "$program" "$scene" --threads 1 --set "Output/Directory=$OLDPWD/results" \
   --set "Output/Fields every=none" --set "Output/Report=false" 2>&1 > "$OLDPWD/log" | sed 's/with .*, which/with ..., which/'
 echo "exit code ${PIPESTATUS[0]}"
-grep -o "Largest torque 50" "$OLDPWD/log" || [ ! -s "$OLDPWD/log" ]
+grep -o "Largest torque 53" "$OLDPWD/log" || [ ! -s "$OLDPWD/log" ]

@@ -143,7 +143,7 @@ class Drawn:
     def add_interface(self):
         law, r = self.what[1], self.number
         self.eps, self.mu = r(400, 900), r(0.3, 0.5)
-        self.set("Interface", Normal_stiffness=self.eps, Tangential_stiffness=self.eps if self.maybe(0.2) else r(300, 700), Quadrature_points=self.chance.choice((2, 3)),
+        self.set("Interface", Normal_stiffness=self.eps, Tangential_stiffness=self.eps if self.maybe(0.2) else r(300, 700), Quadrature_points=self.chance.choice((1, 2, 2, 3, 3, 4)),
                  Slave="bone" if self.maybe(0.25) else "implant", Law=law if law in ("adhesive", "mixed mode", "dilatant") else "friction",
                  Friction_law="rate and state" if law in ("ageing", "slip") else law if law in LAWS[:2] + ("table", "frictionless")
                  else self.chance.choice(("coulomb", "modified coulomb")))
@@ -198,6 +198,8 @@ class Drawn:
                 self.set("Bone", Outer_radius=round(R * r(1.7, 2.5), 4))
             if shape == "cup":
                 self.set("Bone", Cells=f"{around}, 1, 1"), self.set("Implant", Cells=f"{around}, 1, 1")
+            elif shape != "screw" and self.maybe(0.3):
+                self.set("Bone", Cells=f"{pick((8, 12, 16))}, 1, 3")
             if shape == "pin" and self.maybe(0.4):
                 self.set("Implant", Inner_radius=round(0.4 * R, 4))
             if shape == "pin" and self.maybe(0.4):
@@ -207,6 +209,8 @@ class Drawn:
             if shape == "screw":
                 self.set("Implant", Pitch=round(H / r(1.1, 1.4), 4), Thread_depth=r(0.1, 0.2), Starts=pick((1, 4)), Cells="16, 1, 6")
                 self.set("Bone", Cells="16, 1, 6")
+            if shape in ("pin", "taper") and self.entries["Implant/Element"] == self.entries["Bone/Element"] == "trilinear" and self.maybe(0.3):
+                self.set("Bone", Contact_surface="bilinear")
             self.interference = round(2.2 * self.p / self.eps, 6)
             self.set("Interface", Interference=pick((self.interference, f"{self.interference} * (0.2 + 0.8 * min(t, 1))")))
             return

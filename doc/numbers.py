@@ -4,7 +4,7 @@ between <!-- numbers: NAME --> and <!-- end -->, and the tables of doc/reference
 
     doc/numbers.py                  all that take seconds, into the pages (some two minutes)
     doc/numbers.py NAME...          only these; --all: those that take minutes, too
-    doc/numbers.py --list           all names, their cost, pages, and the files that they depend on; the pictures of doc/evidence
+    doc/numbers.py --list           all names, their cost, pages, and the files that they depend on; the pictures
     doc/numbers.py --check [NAME]   changes no page; exit code 1 if a page says something else
 
 Each function below with @numbers is one NAME, and returns what stands there. Tables of more than a dozen rows go to
@@ -1603,17 +1603,29 @@ PICTURES = {
     'cap_pulled_off_force': ('doc/pictures.sh cap_pulled_off', 'doc/verification/cap_pulled_off.sh doc/verification/cap_pulled_off.gp '
                              'prm/verification/cap_pulled_off.prm'),
     'bonds_on_half_spaces': ('doc/pictures.sh bonds', 'doc/verification/bonds_on_half_spaces.sh doc/verification/bonds_on_half_spaces.gp '
-                             'prm/verification/kendall.prm prm/verification/bonded_disk_torsion.prm')}
+                             'prm/verification/kendall.prm prm/verification/bonded_disk_torsion.prm'),
+    'setup': ('doc/pictures.sh setup', 'doc/images/setup.svg'),
+    'data_set_1': ('doc/pictures.sh first', 'doc/first_picture.sh prm/paper/data_set_1_calibrated.prm prm/paper/data'),
+    'report': ('doc/pictures.sh report', 'prm/paper/data_set_1_calibrated.prm prm/paper/data'),
+    'geometry towing cell law': ('doc/pictures.sh geometry', 'doc/geometry.gp doc/towing.gp doc/cell.gp doc/law.gp'),
+    'half_bonded': ('doc/pictures.sh half_bonded', 'doc/half_bonded.gp prm/paper/data_set_1_calibrated.prm'),
+    'front_film': ('doc/pictures.sh film', 'doc/film.py prm/paper/data_set_1_calibrated.prm'),
+    'mesh front peeled opened': ('doc/pictures.sh bodies', 'doc/paraview prm/coin_mode3.prm prm/coin_mode3_fast.prm prm/coin_mode3_spline.prm '
+                                 'prm/adhesion/coin_peeled.prm'),
+    'tutorial_fit': ('doc/pictures.sh tutorial_fit', 'doc/plot_calibration.gp prm/tutorial/fit.prm'),
+    'calibration_data_set_1': ('doc/pictures.sh calibration', 'doc/plot_calibration.gp prm/calibrate/data_set_1.prm'),
+    'ensemble_correlation': ('doc/pictures.sh ensemble', 'doc/studies/ensemble.sh prm/studies')}
 
 
 def complaints_about_evidence():
-    """Pictures that are not in the list, or whose page does not name the command; tables of doc/evidence that nothing makes."""
+    """Pictures that are not in the list, or, in doc/evidence, whose page does not name the command; tables of doc/evidence that
+    nothing makes."""
     commands = {name: (command, files) for names, (command, files) in PICTURES.items() for name in names.split()}
-    text = {page: text_of(page) for page in glob.glob('doc/evidence/*.md')}
-    for page in text:
-        for name in re.findall(r'\(../images/(\w+)\.\w+\)', text[page]):
+    for page in pages():
+        text = '' if page == 'doc/gallery/index.md' else text_of(page)  # all by doc/gallery.py
+        for name in re.findall(r'images/(\w+)\.(?:png|svg)\)', text):
             command, files = commands.get(name, (None, ''))
-            if command is None or command not in text[page]:
+            if command is None or page.startswith('doc/evidence') and command not in text:
                 yield '%s: %s.png: no command, or not that of PICTURES: %s' % (page, name, command)
             yield from ('%s depends on %s, which is not there' % (name, file) for file in files.split() if not os.path.exists(file))
     made = ''.join(inspect.getsource(function) for function, _ in NAMES.values()) + 'work_precision_splines meshes factors front fastest'

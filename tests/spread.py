@@ -83,11 +83,13 @@ def margin_of(values):
     """Margin, spread, room and the number of the configuration that is nearest to the edge."""
     worst = math.inf, 0., math.inf, 0
     for edge in (1, 2):
-        rooms = [(v[0] - v[edge]) * (1 if edge == 1 else -1) for v in values]
-        if not all(map(math.isfinite, rooms)):
-            if not all(math.isinf(v[edge]) for v in values):
-                return 0., math.inf, math.nan, 0
+        if all(math.isinf(v[edge]) for v in values):
             continue
+        rooms = [(v[0] - v[edge]) * (1 if edge == 1 else -1) for v in values]
+        if min(rooms) == math.inf:  # as it is meant to be
+            continue
+        if not all(map(math.isfinite, rooms)):
+            return 0., math.inf, math.nan, 0
         spread = max(max(rooms) - min(rooms), max(v[0] for v in values) - min(v[0] for v in values))
         flips = min(rooms) < 0. <= max(rooms)
         room = 0. if flips else min(map(abs, rooms))

@@ -65,7 +65,7 @@ mkdir -p locked blocked/parameters.prm.partial
 exec 9< locked
 flock 9
 for directory in locked blocked; do
-  ranks 2 $scene --set Output/Directory=$directory || grep -o -e "another run of debond is at work" -e "cannot write" said
+  ranks 2 $scene --set Output/Directory=$directory || grep -a -o -e "another run of debond is at work" -e "cannot write" said
 done
 exec 9<&-
 OMPI_MCA_btl=tcp,self OMPI_MCA_btl_tcp_if_include=lo ranks 2 $scene --set "Load steps/Steps=1,1" --set Output/Directory=tcp && echo "by TCP"

@@ -208,7 +208,7 @@ def run(kinds, build, scratch):
     make_scratch(build, scratch)
     environment = {name: value for name, value in os.environ.items() if not name.startswith('DEBOND')}
     environment.update(PATH=build + os.pathsep + environment['PATH'], OMPI_MCA_rmaps_base_oversubscribe='1',
-                       OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1')
+                       PRTE_MCA_rmaps_default_mapping_policy=':oversubscribe', OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1')
     done, failed, lacking, begin = set(), 0, set(), time.time()
     for command in commands:
         entry = entries.get(command.text)

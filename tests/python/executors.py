@@ -152,7 +152,7 @@ def check_mpi(expected):
         return print("no mpi4py or mpirun: left out")
     # root of a container may use mpirun, and ranks may be more than processors
     allowed = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-               "OMPI_MCA_mpi_yield_when_idle": "1"}
+               "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe", "OMPI_MCA_mpi_yield_when_idle": "1"}
     command = [mpirun, "-n", "3", sys.executable, "-m", "mpi4py.futures", os.path.abspath(__file__), "--mpi", repr(expected)]
     done = subprocess.run(command, env={**os.environ, **allowed}, capture_output=True, text=True, timeout=300)
     check(done.returncode == 0 and "mpi4py: the same digits" in done.stdout, f"mpi4py: {done.stdout} {done.stderr}")

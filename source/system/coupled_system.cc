@@ -174,7 +174,7 @@ namespace Debond
     path.number = first;
     unknowns    = first + (path.follow ? 1 : 0);
     solver.forget();
-    folded_bulk = {};
+    folded_bulk.stiffness.resize(0, 0);
     if (const auto *const sectors = interface.like_sectors())
       folded.emplace(*sectors, configuration, unknowns);
   }
@@ -635,7 +635,7 @@ namespace Debond
   {
     const TimedSection t(timer, "condensation");
     solver.forget();
-    folded_bulk = {};
+    folded_bulk.stiffness.resize(0, 0);
     return bone.refactor() && implant.refactor();
   }
 

@@ -57,8 +57,9 @@ for expected in "$directory"/scenes/*.expected; do
     { echo "exit code $?" && cat said; } > errors && rm said
   fi
   {
-    # what a machine has is its own, and how its processor aligns what a point holds
-    sed -E 's/ and [0-9.]+ [MG]B are available/ and N GB are available/; s/(Quadrature points|needs some) [0-9.e+-]+ GB/\1 N GB/g' errors
+    # what a machine has is its own, and how its processor aligns what a point holds: one digit
+    perl -pe 's/ and [0-9.]+ [MG]B are available/ and N GB are available/;
+              s/(Quadrature points|needs some) ([0-9.e+-]+) GB/sprintf "%s %.1g GB", $1, $2/ge' errors
     find . -type f ! -name errors ! -name "$name.prm" ! -path "./input*" | LC_ALL=C sort | sed 's/^/left behind: /'
   } > "$directory/$name.said"
   scenes=$((scenes + 1))

@@ -84,9 +84,8 @@ private:
   solve()
   {
     Debond::NewtonOptions options;
-    options.residual_tolerance     = scene.load_steps.residual_tolerance;
-    options.points.stick_first     = scene.load_steps.step_in_phase(step) <= 1;
-    options.points.touch_tolerance = 1e-12 * system.R;
+    options.residual_tolerance = scene.load_steps.residual_tolerance;
+    options.points.stick_first = scene.load_steps.step_in_phase(step) <= 1;
     if (step > 0)
       options.points.duration = times[step] - times[step - 1];
     options.points.frictionless =

@@ -31,6 +31,7 @@ namespace Debond
     : parameters(parameters)
     , law(parameters.law())
     , slave(parameters.slave)
+    , touch_tolerance(1e-12 * implant.parameters().characteristic_radius())
     , mesh{{&bone, &implant}}
     , master_is_level(mesh[other(slave)]->surface().is_level())
     , master_is_flat(mesh[other(slave)]->surface().is_flat())
@@ -56,7 +57,7 @@ namespace Debond
     // the mean pressure refers to.
     for (const auto &place : surface_quadrature(implant.surface(), along))
       area_of_implant += place.JxW;
-    find_facets(1e-12 * implant.parameters().characteristic_radius());
+    find_facets();
   }
 
 
@@ -213,8 +214,7 @@ namespace Debond
   //
   // The bonding comes last, as with the bone as slave it asks for the partners.
   void
-  ContactInterface::initialise(const InterfaceConfiguration &configuration,
-                               const double                  touch_tolerance)
+  ContactInterface::initialise(const InterfaceConfiguration &configuration)
   {
     tangent_is_gathered = false;
     for (const Side side : both_sides)
@@ -366,9 +366,10 @@ namespace Debond
   // the order of the parts: results are the same to the last digit.
   bool
   ContactInterface::evaluate(const InterfaceConfiguration &configuration,
-                             const ContactPointMode       &mode)
+                             ContactPointMode              mode)
   {
-    tangent_is_gathered = false;
+    tangent_is_gathered  = false;
+    mode.touch_tolerance = touch_tolerance;
     // the master where it is now, and how far things have moved at most since
     // the accepted state. The mode of this step is needed again when it is
     // judged and when it is committed.

@@ -70,7 +70,7 @@ namespace Debond
   // points, and x' = sum N_A x_A + sum G_k (o - (o + e_k)) = x - Q G. So forces
   // act at x', with its lever arm.
   void
-  ContactInterface::find_facets(const double touch_tolerance)
+  ContactInterface::find_facets()
   {
     const NurbsSurface &surface = mesh[master_side()]->surface();
     if (surface.is_one_patch() && mesh[slave]->surface().is_one_patch())

@@ -198,7 +198,7 @@ namespace Debond
     update_configuration();
     {
       const TimedSection t(timer, "contact");
-      interface.initialise(configuration, 1e-12 * R);
+      interface.initialise(configuration);
     }
     const TimedSection t(timer, "condensation");
     auto               found = find_sectors(most_sectors);

@@ -185,8 +185,7 @@ namespace Debond
     options.points.stick_first =
       !attempt.relaxes_machine && !attempt.extrapolates;
     // For viscosity and rates, in the scene's unit of time.
-    options.points.duration        = step.time - accepted_time;
-    options.points.touch_tolerance = 1e-12 * system.R;
+    options.points.duration     = step.time - accepted_time;
     options.points.frictionless = !parameters.has_friction_after(accepted_time);
     options.shorten_in_cycles   = !attempt.jumps;
 

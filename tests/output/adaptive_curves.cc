@@ -28,9 +28,8 @@ void
 solve_step(CoupledSystem &system, const double begin, const double end)
 {
   NewtonOptions options;
-  options.residual_tolerance     = 1e-13;
-  options.points.touch_tolerance = 1e-12 * system.R;
-  options.points.duration        = end - begin;
+  options.residual_tolerance = 1e-13;
+  options.points.duration    = end - begin;
   system.rollback();
   system.predict(end, end, false);
   const NewtonResult result = solve_newton(system, options);

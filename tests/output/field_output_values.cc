@@ -80,7 +80,7 @@ struct Model
     , chuck(motion(), Eigen::Vector3d(0, 0, bodies[1].height), 2.5)
     , interface(interface_parameters, bone.mesh(), implant.mesh())
   {
-    interface.initialise(configuration(), 0.);
+    interface.initialise(configuration());
   }
 
   static InterfaceParameters

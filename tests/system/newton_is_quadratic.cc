@@ -110,9 +110,8 @@ check(const std::string &name,
 
   CoupledSystem system(scene);
   NewtonOptions options;
-  options.residual_tolerance     = 1e-12;
-  options.points.touch_tolerance = 1e-12 * system.R;
-  options.points.stick_first     = true;
+  options.residual_tolerance = 1e-12;
+  options.points.stick_first = true;
   system.start(0.);
   std::cout << name << std::endl;
   for (const double time : {0., 1.})

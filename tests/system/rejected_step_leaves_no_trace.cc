@@ -42,11 +42,10 @@ public:
        const unsigned int max_iterations = 25)
   {
     NewtonOptions options;
-    options.residual_tolerance     = 1e-12;
-    options.points.touch_tolerance = 1e-12 * system.R;
-    options.points.stick_first     = !extrapolate;
-    options.max_iterations         = max_iterations;
-    options.points.duration        = time - accepted_time;
+    options.residual_tolerance = 1e-12;
+    options.points.stick_first = !extrapolate;
+    options.max_iterations     = max_iterations;
+    options.points.duration    = time - accepted_time;
     system.predict(time, time, extrapolate);
     const bool converged = solve_newton(system, options).converged;
     if (converged)

@@ -98,7 +98,7 @@ namespace Debond
     double       facing_area = 0; ///< of the implant, with the chuck [mm^2]
     unsigned int n_bonded    = 0; ///< points
     double bonded_area = 0, bonding_area = 0; ///< integral of phi_0; wanted
-    double largest_gap = 0; ///< that is taken off [mm]
+    double largest_gap = 0;                   ///< that is taken off [mm]
     double uneven      = 0; ///< range of gaps that are not [mm]
 
     /** What bonds, in a law that pulls, and gaps that are taken off; empty if
@@ -219,8 +219,7 @@ namespace Debond
 
     /** Faces every point with its closest point on the master. */
     void
-    initialise(const InterfaceConfiguration &configuration,
-               double                        touch_tolerance);
+    initialise(const InterfaceConfiguration &configuration);
 
     /** From here on the points of one sector stand for all. To be called after
      *  initialise(), of surfaces that have this symmetry; nothing is done, and
@@ -231,7 +230,7 @@ namespace Debond
     /** Updates all points. Returns false if a point found no solution. */
     bool
     evaluate(const InterfaceConfiguration &configuration,
-             const ContactPointMode       &mode);
+             ContactPointMode              mode);
 
     /** The mode of the last evaluate(). */
     const ContactPointMode &
@@ -519,7 +518,7 @@ namespace Debond
     /** Takes off gaps at the start of faces of several elements, which need not
      *  fit. */
     void
-    find_facets(double touch_tolerance);
+    find_facets();
     /** Gives points of the bone the phi_0 of the implant that they face. */
     void
     follow_pattern();
@@ -564,6 +563,7 @@ namespace Debond
     const InterfaceParameters        parameters;
     const ContactPointLaw            law;
     const Side                       slave;
+    const double                     touch_tolerance; ///< of every mode [mm]
     std::array<const BulkSpace *, 2> mesh;
     const bool                       master_is_level, master_is_flat;
     const dealii::Quadrature<1>      along; ///< an element

@@ -496,8 +496,9 @@ namespace Debond
                    scene.model == ModelKind::finite_elements || is_auto,
                  rubs    = !law.is_frictionless(),
                  by_slip = rubs && !is_crack &&
-                           scene.interface.law_choice.law != "mixed mode",
-                 wears = is_bonded && by_slip;
+                           scene.interface.law_choice.law != "mixed mode";
+      // Largest slip step = auto goes by the distances of a bond, also without
+      const bool wears = by_slip && (is_bonded || scene.load_steps.follow_path);
       const struct
       {
         const char *beginning; ///< of the names

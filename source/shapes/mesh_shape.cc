@@ -69,6 +69,11 @@ namespace Debond
         const auto &[lower, upper] = body.mesh->box.get_boundary_points();
         return std::max(-lower[2], upper[2]);
       }
+      double
+      chuck_height(const BodyParameters &body) const override
+      {
+        return body.mesh->box.get_boundary_points().second[2];
+      }
 
       std::shared_ptr<const BodyMesh>
       make_mesh(const BodyParameters &body,

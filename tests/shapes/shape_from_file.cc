@@ -303,6 +303,13 @@ faces_at_start()
       faces_of("in the bone", {file[0], "Implant/Mesh file=low.msh"}).overlap -
       0.1),
     1e-12);
+  // a stem that ends where its bone does
+  write_coin("deep.msh", 2.5, 3., 1, 1, -3.);
+  report("the chuck's point is at the top",
+         std::abs(
+           Scene::from_text(torsion, {file[0], "Implant/Mesh file=deep.msh"})
+             .implant.chuck_height()),
+         1e-12);
   write_coin("middle.msh", 2.5, 3., 1, 1, 0., 1.9);
   faces_of("a ring left out", {file[0], "Implant/Mesh file=middle.msh"});
   write_coin("above.msh", 2.5, 3., 1, 1, 0.1);

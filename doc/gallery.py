@@ -372,11 +372,11 @@ def write_page(facts):
     folders = sorted({os.path.dirname(scene) for scene in listed},
                      key=lambda folder: (list(FOLDERS).index(folder) if folder in FOLDERS else len(FOLDERS), folder))
     lines = ["# Gallery", "",
-             f"Here you find the scene that is nearest to your test: {len(listed)} scenes of the folder `prm`, each with its curve, the",
-             "contact face and the command that runs it. `doc/gallery.py` runs them and writes this page.", "",
+             f"Here you find the scene that is nearest to your test: {len(listed)} scenes of the folder `prm`, each with the command that",
+             "runs it, most with curve and contact face. `doc/gallery.py` runs them and writes this page.", "",
              "Seconds are those of a run on two cores that other programs shared. A longer run was ended after about the time that",
              "the page tells, and the picture shows as much as there was by then. Of maps, that of the bonding state is at the end of the",
-             "run or, where it is uniform there, at an event before; where the bond does not change, the pressure is shown.", ""]
+             "run or, where it is uniform there, at an event before; where it never varies over the face, the pressure is shown.", ""]
     for folder in folders:
         of_folder = [scene for scene in listed if os.path.dirname(scene) == folder]
         heading = FOLDERS.get(folder, folder)

@@ -79,8 +79,8 @@ among N processes.
   --resume DIR        go on with the interrupted run whose results are in DIR, from
                       its last checkpoint; with SCENE.prm or --set only if that
                       is the same scene, or one that goes on to later times
-  --compare DIR CURVE compare the torque curves in DIR, of a run, a study or an
-                      ensemble, with a measured one; nothing is run
+  --compare DIR CURVE compare the curves in DIR, of a run, a study or an ensemble,
+                      with a measured one; nothing is run
   --columns LIST      which columns of CURVE are angle and torque, as Output /
                       Reference columns: "2 [deg], 3 [N m]"; with
                       "3 [-N m]" torques of the other sign

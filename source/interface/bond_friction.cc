@@ -56,7 +56,7 @@ namespace Debond
        "0.58",
        coefficient,
        "Coefficient mu_ub of a fully bonded point, dimensionless. Used by "
-       "modified coulomb and table."}};
+       "modified coulomb and table, not with Law = mixed mode."}};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

@@ -33,13 +33,13 @@ namespace Debond
       "Pattern",
       pattern,
       Allowed::choice(pattern_names),
-      "Where the contact face of the implant is bonded at the start (phi_0, "
-      "in reference coordinates). `homogeneous': everywhere. `disk': inside "
-      "the concentric disk that has Bonded fraction of the area of a coin, "
-      "cap, ring, cup or file. `annulus': outside a concentric disk, with that "
-      "fraction. "
-      "`random': as many elements, drawn by Seed, as make up Bonded "
-      "fraction. `expression': see Expression. `image', `file': see File.");
+      "Where the contact face of the implant is bonded at the start (phi_0, in "
+      "reference coordinates). `homogeneous': everywhere. `disk': inside the "
+      "concentric disk that has Bonded fraction of the area of a coin, cap, "
+      "ring, cup or file. `annulus': outside a concentric disk, with that "
+      "fraction. `random': as many elements or points (Resolution), drawn by "
+      "Seed, as make up Bonded fraction. `expression': see Expression. "
+      "`image', `file': see File.");
     table.add("Bonding degree",
               initial_bonding,
               Allowed::number_between(0, 1, ""),
@@ -84,33 +84,33 @@ namespace Debond
       "Expression",
       expression,
       Allowed::text("an expression in x, y, r, angle, pi, R", false),
-      "Pattern expression: phi_0 in [0, 1] as an expression in the position: "
-      "x and y in mm (on a side: x around it from angle = 0, and y = z; on a "
+      "Pattern expression: phi_0 in [0, 1] as an expression in the position: x "
+      "and y in mm (on a side: x around it from angle = 0, and y = z; on a "
       "cup: along the sphere from its lowest point), the distance r from the "
       "implant's axis in mm, angle about the axis from the x axis towards the "
-      "y axis in degrees, above -180 and up to 180, pi, and the radius R of "
-      "the implant in mm. sin and cos expect radians.");
+      "y axis in degrees, above -180 and up to 180, pi, and R, half the width "
+      "of the implant (the shorter one) in mm. sin and cos expect radians.");
     table.add(
       "File",
       file,
       Allowed::text("the name of a file", false).or_word_for("none", ""),
       "Pattern image: PNG or PGM, grey levels from 0 (black) to 1 (white) are "
       "phi_0; the picture spans the square around the contact face (of a "
-      "block: the rectangle), its right is +x and its top +y. Pattern file: "
-      "CSV whose first line names its columns: element,phi_0, or point,phi_0 "
-      "with Resolution = quadrature point (numbered from 1, see bonding.csv "
-      "in the results), phi_0 alone (all of these in order), or x,y,phi_0 "
-      "(places in mm, seen from above, not in a bore: an element takes the "
-      "mean of those inside it, or that of the one nearest to its centre; a "
-      "quadrature point that of the nearest). The path is relative to the "
-      "working directory.");
+      "block, a file or a side: the rectangle), its right is +x and its top "
+      "+y. Pattern file: CSV whose first line names its columns: "
+      "element,phi_0, or point,phi_0 with Resolution = quadrature point "
+      "(numbered from 1, see bonding.csv in the results), phi_0 alone (all of "
+      "these in order), or x,y,phi_0 (places in mm, seen from above, not in a "
+      "bore: an element takes the mean of those inside it, or that of the one "
+      "nearest to its centre; a quadrature point that of the nearest). The "
+      "path is relative to the working directory.");
     table.add("White level",
               white_level,
               Allowed::whole_number(1, 65535).or_word_for("auto", "0"),
-              "Grey level in the file that is white, phi_0 = 1, for Pattern "
-              "= image: 4095 for 12 bits in a file of 16. `auto': the "
-              "largest that the format has, 255, 65535, or what a PGM file "
-              "says.");
+              "Grey level in the file that is white, phi_0 = 1, for Pattern = "
+              "image: 4095 for 12 bits in a file of 16. `auto': the largest "
+              "that the format has, 255 or 65535, or what the file says; a "
+              "dark one of 16 bits is refused.");
     table.add(
       "Threshold",
       threshold,

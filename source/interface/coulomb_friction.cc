@@ -148,9 +148,10 @@ namespace Debond
                "Characteristic slip distance",
                "0.022",
                Allowed::number_between(1e-9, 1e6, "mm"),
-               "Characteristic slip distance a_s [mm]: sliding distance up "
-               "to which a point stays fully bonded. Used by modified "
-               "coulomb, and by coulomb with Law = adhesive."},
+               "Characteristic slip distance a_s [mm]: sliding distance up to "
+               "which a point stays fully bonded. Used by modified coulomb, "
+               "and by coulomb with Law = adhesive; not with Law = mixed "
+               "mode."},
               {"",
                "Transition factor",
                "0.74",
@@ -223,7 +224,7 @@ namespace Debond
   frictionless_plugin()
   {
     return {"frictionless",
-            "no tangential traction",
+            "no friction",
             decay_entries(),
             [](const LawChoice &choice) {
               auto parameters         = parameters_of(choice, 0., 0.);

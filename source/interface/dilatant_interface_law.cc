@@ -125,7 +125,8 @@ namespace Debond
         Allowed::number_between(1e-9, 1e3, "mm"),
         "l [mm]: sliding distance over which they move apart, h = h_inf (1 - "
         "exp(-g_s/l)). Height / Length must not exceed the friction "
-        "coefficient of a debonded point, which provides the work."}},
+        "coefficient of a debonded point, which provides the work (not checked "
+        "with rate and state)."}},
       [](const LawChoice &choice, const InterfaceLawParts &parts) {
         const double height = choice.number("Height"),
                      length = choice.number("Length"),

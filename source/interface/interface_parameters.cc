@@ -32,14 +32,14 @@ namespace Debond
       "cells), or as many as keep the distance between points below the width "
       "of the other body's cells. Around a bore, and in files, where sides of "
       "cells of both bodies divide the slave's into 2 to 4 equal parts: 3 in "
-      "each; around a bore in 4 parts, too, where they do not meet, which "
-      "leaves stresses in the other body up to some 2 % off.");
+      "each; around the axis of a bore in 4 parts, too, where they do not "
+      "meet, which leaves stresses in the other body up to some 2 % off.");
     table.add("Normal stiffness",
               normal_penalty,
               Allowed::number_between(1e-6, 1e15, "MPa/mm"),
-              "Normal stiffness eps_n [MPa/mm] of the interface: pressure "
-              "per penetration. It is a property of the interface, and is "
-              "fitted to the measured slope with Tangential stiffness.");
+              "Normal stiffness eps_n [MPa/mm] of the interface: pressure per "
+              "penetration. It is a property of the interface, and is fitted "
+              "to measurements, as Tangential stiffness is.");
     table.add(
       "Tangential stiffness",
       tangential_penalty,

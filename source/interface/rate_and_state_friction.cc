@@ -216,7 +216,8 @@ namespace Debond
           row("Reference speed",
               "1e-3",
               Allowed::number_between(1e-30, 1e15, "mm per unit of time"),
-              "V_0 [mm per unit of time]: speed that mu_0 refers to."),
+              "V_0 [mm per unit of time]: speed that V and D / theta are "
+              "compared with."),
           row("Sliding distance",
               "0.01",
               Allowed::number_between(1e-9, 1e6, "mm"),

@@ -240,11 +240,11 @@ namespace Debond
           Allowed::text("the name of a CSV file", false)
             .or_word_for("none", ""),
           "CSV file for Friction law = table, relative to the working "
-          "directory, with the columns slip_mm, the sliding distance g_s "
-          "[mm], ascending from 0, and phi, the bonding state of a point "
-          "that was fully bonded, from 1 to 0 and never rising. It needs "
-          "four rows at least. Between rows there are monotone cubics; "
-          "beyond the last row phi is constant. `none': no table."}}),
+          "directory, with the columns slip_mm, the sliding distance g_s [mm], "
+          "ascending from 0, and phi, the bonding state of a point that was "
+          "fully bonded, between 1 and 0 and never rising. It needs four rows "
+          "at least. Between rows there are monotone cubics; beyond the last "
+          "row phi is constant. `none': no table."}}),
       [](const LawChoice &choice) {
         return read_table(choice.number("Friction coefficient broken"),
                           choice.number("Friction coefficient unbroken"),

@@ -81,7 +81,7 @@ namespace Debond
         "Reference variant",
         study.reference_variant,
         Allowed::whole_number(1, 100000).or_word_for("none", "0"),
-        "Number of the variant of a study whose torque curve the others are "
+        "Number of the variant of a study whose curve the others are "
         "compared with in study.csv. `none': they are compared with Output / "
         "Reference curve, if there is one.");
       table.add(
@@ -198,7 +198,8 @@ namespace Debond
         Allowed::text("a column of torque.csv", false).or_word("auto"),
         "Quantity that Curves were measured over, the first of Output / "
         "Reference columns: time, angle_deg or another column of torque.csv "
-        "that begins with chuck_. `auto': the position of Output / Curve.");
+        "that begins with chuck_ or machine_. `auto': the position of Output "
+        "/ Curve.");
       table.add("Windows",
                 "none",
                 nullptr,
@@ -219,8 +220,7 @@ namespace Debond
                 nullptr,
                 Allowed::number_above(0, ""),
                 "Largest e_rel, Eq. (50), of an acceptable fit. Above it the "
-                "program says that nothing was found, and ends with exit "
-                "code 2.");
+                "program says that nothing fits, and ends with exit code 2.");
       table.add("Smallest share of rows",
                 "0.5",
                 nullptr,
@@ -232,7 +232,8 @@ namespace Debond
                 "20",
                 nullptr,
                 Allowed::whole_number(1, 100000),
-                "Number of starting points of the search; the five best are "
+                "Number of starting points of the search; the best, five or, "
+                "where only runs of finite elements can search, two, are "
                 "followed to the end.");
       table.add("Seed",
                 "1",
@@ -297,8 +298,8 @@ namespace Debond
         Allowed::text("the name of a CSV file", false).or_word_for("none", ""),
         "CSV file with local values to compare with, such as profiles.csv of "
         "another run: columns angle_deg, x_mm, y_mm, area_mm2, pressure_MPa "
-        "and slip_mm. Compared are those of Profile angles that it has. "
-        "`none': no comparison.");
+        "and slip_mm. Compared are the angles that both files have. `none': "
+        "no comparison.");
     }
 
 
@@ -321,7 +322,8 @@ namespace Debond
         Allowed::number_above(0, "deg").or_word_for("auto", "0"),
         "Angle theta_fric [deg] from which E_fric of Eq. (20) is counted. "
         "`auto': theta_full, the last angle with a torque of at least 0.999 "
-        "of the largest.");
+        "of the largest; with Model = prescribed angles, Slip counts from "
+        "angle.");
       table.add("Observed bonding",
                 output.observed_bonding,
                 Allowed::number_between(1e-9, 1, "").or_word_for("auto", "0"),
@@ -341,8 +343,8 @@ namespace Debond
           .or_word_for("none", "0"),
         "Number of planned steps (with Adaptive or Path following: of rows) "
         "between checkpoints, from which `debond --resume DIR' goes on. "
-        "`none': only when SIGINT, SIGTERM, SIGHUP or SIGUSR1 interrupts the "
-        "run. For Model = finite elements.");
+        "`none': no such checkpoints. SIGINT, SIGTERM, SIGHUP and SIGUSR1 "
+        "leave one in any case. For Model = finite elements.");
       table.add(
         "Checkpoint minutes",
         output.checkpoint_minutes,
@@ -370,8 +372,9 @@ namespace Debond
         output.fields_every,
         Allowed::whole_number(1, std::numeric_limits<int>::max())
           .or_word_for("none", "0"),
-        "Planned steps between VTU files, counted from the beginning of each "
-        "phase, whose end is always written. `none': no VTU files.");
+        "Planned steps between VTU files, counted in each phase (with "
+        "Adaptive or Path following: rows, counted in the run). The end of a "
+        "phase is always written. `none': no VTU files.");
       declare_references(output, table);
       declare_measures(output, table);
       table.add(

@@ -174,14 +174,14 @@ namespace Debond
         "cosines across the block; exact for a bone of splines with cells of "
         "equal width, and fast. Its sides carry no shear then, which is the "
         "limit of sliding sides as cells become smaller. A Neo-Hookean bone "
-        "keeps the stiffness at rest in the iterations, which converge to "
-        "the same solution as long as strains are small. `multigrid': "
-        "iterations on the whole system with algebraic multigrid, for bones "
-        "too large to be factorised, on any number of processes (mpirun). "
-        "`auto': multigrid on several processes, or where factors would not "
-        "fit into memory; lattice where it is possible, the implant stays "
-        "away from the sides, and strains are below some 1 %; else direct. "
-        "The program says which it takes, and why.");
+        "keeps the stiffness at rest in the iterations, which converge to the "
+        "same solution as long as strains are small. `multigrid': iterations "
+        "on the whole system with algebraic multigrid, for bones too large to "
+        "be factorised, on any number of processes (mpirun). `auto': multigrid "
+        "on several processes; lattice where it is possible, the implant stays "
+        "away from the sides, and strains of a Neo-Hookean bone are below some "
+        "1 %; else direct, or multigrid where factors would not fit into "
+        "memory or take longer.");
     }
 
 
@@ -195,7 +195,8 @@ namespace Debond
         allowed_length,
         "Distance [mm] along the axis between neighbouring crests of the "
         "thread of a screw, which comes out by Pitch times Starts in a turn. "
-        "Torques are 0.5 % off with four cells along it, 0.07 % with six.");
+        "Before it turns, torques without friction are 0.5 % off with four "
+        "cells along it, 0.07 % with six.");
       table.add("Thread depth",
                 implant.thread_depth,
                 allowed_length,
@@ -218,7 +219,7 @@ namespace Debond
               size,
               Allowed::list(allowed_length, 3, 3),
               "Edge lengths [mm] of the block of bone in x, y and z. Its top "
-              "face is at z = 0, centred below the implant; its bottom is "
+              "face is at z = 0, with its centre at the origin; its bottom is "
               "held, its sides move in their own planes only.");
     table.add("Outer radius",
               outer_radius,
@@ -252,11 +253,11 @@ namespace Debond
       "radially and along its axis. Of a cavity: around (8, 12, ...), radially "
       "and along a meridian, from a square at the bottom, a quarter of those "
       "around across, to the rim. `fitted a, i, o, l': cells of a block that "
-      "follow the rim of a coin or cap: a (a multiple of 4) around it, i "
-      "from a square core to the rim, o from there to the sides, in l "
-      "layers, all smaller towards the rim. `fitted': 16, 6, 10, 9. Fitted "
-      "cells are for Element = spline and save time where the interface is "
-      "stiff.");
+      "follow the rim of a coin or cap: a (a multiple of 4) around it, i from "
+      "a square core to the rim, o from there to the sides, in l layers, "
+      "smaller towards the rim and the contact face. `fitted': 16, 6, 10, 9. "
+      "Fitted cells are for Element = spline and save time where the interface "
+      "is stiff.");
     declare_grading(*this, table);
     declare_solver(*this, table);
     declare_material(table, true);
@@ -292,8 +293,8 @@ namespace Debond
     table.add("Height",
               height,
               allowed_length,
-              "Height [mm] on the axis of a coin, cap or ring; of a pin the "
-              "length of its side; of a cup its depth, at most its Radius.");
+              "Height [mm] on the axis of a coin, cap or ring; along it of a "
+              "pin, taper or screw; of a cup its depth, at most its Radius.");
     table.add("Cap radius",
               cap_radius,
               Allowed::number_between(1e-6, 1e9, "mm"),
@@ -403,12 +404,13 @@ namespace Debond
       },
       number_or_expression,
       what +
-        " Or an expression in the position x, y, z [mm], with z = 0 at the "
-        "top and negative below, and in the radius R of the implant: if(z > "
-        "-1, 18000, 500) is a cortical layer of 1 mm. With a Voxel file also "
-        "in its grey value: max(10, 6850 * max(0, grey / 1000)^1.49). It is "
-        "evaluated at the Gauss points of the cells: let it jump at sides of "
-        "cells. Not used by a rigid body.");
+        " Or an expression in the position x, y, z [mm], with z = 0 at the top "
+        "and negative below, and R, half the width of the implant (the shorter "
+        "one): if(z > -1, 18000, 500) is a cortical layer of 1 mm. With a "
+        "Voxel file also in its grey value: max(10, 6850 * max(0, grey / "
+        "1000)^1.49). It is evaluated at the Gauss points of the cells, or "
+        "averaged over the voxels around them: let it jump at sides of cells. "
+        "Not used by a rigid body.");
     table.add("Voxel file",
               voxel_file,
               Allowed::text("the name of a file of voxels", false)
@@ -500,23 +502,22 @@ namespace Debond
       element,
       Allowed::choice("trilinear | quadratic | spline"),
       "Kind of cells. `trilinear': hexahedra with 8 nodes, whose side at the "
-      "contact face is a NURBS surface, as in the paper. `quadratic': the "
-      "same with 27 nodes. `spline': quadratic splines in all directions, "
-      "with continuous strains: smaller error in the same time, especially "
-      "with cells that follow the rim.");
+      "contact face is a NURBS surface, as in the paper. `quadratic': the same "
+      "with 27 nodes. `spline': quadratic splines in all directions: smaller "
+      "error in the same time, especially with cells that follow the rim.");
     table.add(
       "Layer grading",
       layer_grading,
       allowed_grading,
-      "Grading exponent g of the layers of cells along the axis: of n layers "
-      "in a body of height H, layer k ends at the distance H (k/n)^g from "
+      "Grading exponent g of the layers of cells behind the contact face: of n "
+      "layers over the length H, layer k ends at the distance H (k/n)^g from "
       "the contact face. 1: equal layers. More than 1: thinner layers at the "
       "interface, where the stress changes most.");
     table.add(
       "Coarser below",
       coarser_below,
       Allowed::choice("false | true"),
-      "Make cells below the first layer at the contact face twice as wide in "
+      "Make cells beyond the first layer at the contact face twice as wide in "
       "x and y, with hanging nodes between. For trilinear and quadratic "
       "elements.");
     table.add(
@@ -539,8 +540,8 @@ namespace Debond
       contact_surface,
       Allowed::choice("nurbs | bilinear"),
       "Interpolation of the contact face. `nurbs': biquadratic NURBS with "
-      "continuous normals; the disk of a coin is an exact circle. "
-      "`bilinear': the faces of the cells, for comparison.");
+      "normals that are continuous, or nearly so; the disk of a coin is an "
+      "exact circle. `bilinear': the faces of the cells, for comparison.");
   }
 
 

@@ -18,8 +18,8 @@ namespace Debond
         "Path following",
         parameters.follow_path,
         Allowed::choice("none | slip"),
-        "`none': planned steps in time; where the equilibrium path snaps "
-        "back, the program jumps. `slip': follow the path by prescribing the "
+        "`none': steps in time; where the equilibrium path snaps back, the "
+        "program jumps or stops. `slip': follow the path by prescribing the "
         "mean sliding distance (with strength in tension: and opening); the "
         "time, and with it everything prescribed, is unknown and may fall; "
         "each accepted step is a row. While everything sticks planned steps "
@@ -29,9 +29,9 @@ namespace Debond
                 Allowed::number_above(0, "mm").or_word_for("auto", "0"),
                 "With Path following: largest step of the sliding distance, "
                 "and of the opening, averaged over the contact face [mm]. "
-                "`auto': a twentieth of the smallest of 2 a_s b_s, over "
-                "which friction falls, of a_s, and of the gap over which a "
-                "bond opens.");
+                "`auto': a twentieth of the shortest distance over which the "
+                "law changes, such as a_s, 2 a_s b_s, or the gap over which "
+                "a bond opens.");
       table.add("Path ends at slip",
                 parameters.path_ends_at_slip,
                 Allowed::number_above(0, "mm").or_word_for("auto", "0"),
@@ -51,14 +51,15 @@ namespace Debond
         "Smallest step fraction",
         parameters.smallest_step_fraction,
         Allowed::number_between(1e-15, 1, ""),
-        "Smallest step, as a fraction of a planned step. If a smaller one is "
-        "needed, the run stops with an error.");
+        "Smallest step, as a fraction of a planned step, or of Largest slip "
+        "step. If it does not converge, the run stops with an error.");
       table.add("Residual tolerance",
                 parameters.residual_tolerance,
                 Allowed::number_between(1e-14, 0.1, ""),
                 "Newton's method has converged when the residual is below "
-                "this fraction of the contact force, or of a load that is "
-                "larger, or below the force of what rounding makes of places.");
+                "this fraction of the contact force, of a load that is "
+                "larger, or of the force of a penetration of 1e-6 R, or "
+                "below what rounding of places makes.");
     }
   } // namespace
 
@@ -80,8 +81,9 @@ namespace Debond
       steps,
       Allowed::list(Allowed::whole_number(1, 10000000), 1, 0),
       "Number of planned steps in each phase: one number fewer than Times. "
-      "With Adaptive they set the largest step. A step that turns the chuck "
-      "by more than 5 degrees is divided, to keep the work accurate.");
+      "With Adaptive they set the largest step. Finite elements with "
+      "friction divide a step that is to turn the chuck by more than 5 "
+      "degrees, to keep the work accurate.");
     table.add("Adaptive",
               adaptive,
               Allowed::choice("false | true"),
@@ -108,11 +110,11 @@ namespace Debond
               Allowed::choice("none | auto"),
               "`auto': if bodies, bond and load are unchanged by a turn "
               "about the z axis (by 90 degrees for a coin on a block), only "
-              "one sector of contact points and unknowns is computed. "
-              "Results differ by rounding only. `none': compute all. A bond "
-              "that is to break on one side first needs an imperfection, "
-              "such as a Pattern or a small motion in x; it is then computed "
-              "as a whole.");
+              "one sector of contact points and unknowns is computed, but "
+              "not with strength in tension or multigrid. Results differ by "
+              "rounding only. `none': compute all. A bond that is to break "
+              "on one side first needs an imperfection, such as a Pattern or "
+              "a small motion in x; it is then computed as a whole.");
     declare_path(*this, table);
     declare_iteration(*this, table);
     table.leave_subsection();

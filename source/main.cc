@@ -168,7 +168,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     const bool resumes = !arguments.directory_to_resume.empty();
     if (resumes && (arguments.check || arguments.print_parameters ||
                     arguments.force || arguments.n_jobs > 0))
-      refuse_usage("--resume goes with SCENE.prm, --set and --threads only");
+      refuse_usage(
+        "--resume goes with SCENE.prm, --set, --threads and --verbose only");
     const bool compares = !arguments.directory_to_compare.empty();
     if (compares && (resumes || arguments.check || arguments.print_parameters ||
                      arguments.force || !arguments.overrides.empty()))
@@ -422,8 +423,9 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       std::cout << "warning: " << remark << ", the other checkpoint is used\n";
     set_number_of_threads(or_processors(arguments.n_threads));
     catch_interruptions();
-    with_report(run->scene,
-                [&] { DebondingProblem(run->scene).run(&run->checkpoint); });
+    Scene scene          = run->scene;
+    scene.output.timings = arguments.verbose;
+    with_report(scene, [&] { DebondingProblem(scene).run(&run->checkpoint); });
   }
 
 

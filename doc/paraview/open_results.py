@@ -483,7 +483,7 @@ def read_arguments():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", metavar="DIR", help="directory with results")
     parser.add_argument("--state", metavar="FILE.pvsm", help="for ParaView (default: view.pvsm in DIR)")
-    parser.add_argument("--pictures", metavar="DIR2", help="make a picture of each file, view-NNNN.png in DIR2")
+    parser.add_argument("--pictures", metavar="DIR2", help="make a picture at each angle, view-NNNN.png in DIR2")
     parser.add_argument("--angles", nargs="+", type=float, metavar="DEG", help="only of the files at these angles [deg]")
     parser.add_argument("--fields", nargs="+", default=FACES, metavar="FIELD",
                         help="of the contact face, up to four: %s (default: %s)" % (", ".join(FIELDS), " ".join(FACES)))

@@ -7,7 +7,7 @@
 // first stick to the interface by an elastic spring; this file says what limits
 // the traction of that spring, mu p, as a function of the distance g_s [mm]
 // that a point has slid. Eq. (11), which makes mu of the bond, stands in
-// bond_friction.cc; here is the decay of the bond, Eq. (13).
+// bond_friction.h; here is the decay of the bond, Eq. (13).
 namespace Debond
 {
   namespace
@@ -117,10 +117,10 @@ namespace Debond
       // judged by the middle already, so that a large step does not jump over
       // it unnoticed.
       //
-      // A short fall is a brittle bond. The torque of the main scene falls by 1
-      // N m/rad at most, far less than any machine is stiff; with a_s = 0.005
-      // mm and b_s = 0.3 it is 8.9 N m/rad for rigid bodies, and a compliant
-      // machine may snap back.
+      // A short fall is a brittle bond. The torque of the main scene falls by
+      // less than 1 N m/rad, far less than any machine is stiff; with a_s =
+      // 0.005 mm and b_s = 0.3 it is 8.9 N m/rad for rigid bodies, and a
+      // compliant machine may snap back.
       double
       steepest_decay(const double slip) const override
       {

@@ -58,8 +58,9 @@ namespace Debond
               const double value = function(time);
               if (std::abs(value) > largest)
                 throw InputError(
-                  "it is " + to_text(value) + " at t = " + to_text(time) +
-                  ": expected at most " + to_text(largest) +
+                  "it is " + to_text(component.into_bone ? -value : value) +
+                  " at t = " + to_text(time) + ": expected at most " +
+                  to_text(largest) +
                   (component.loaded ? " N or N mm" : " mm or degrees"));
               varies = varies || value != first_value;
             }

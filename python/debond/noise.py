@@ -123,8 +123,10 @@ def estimate(residuals, derivatives, parts, longest=None):
     """The Noise of `residuals` (n), what a fit has left, whose curve has these `derivatives` (n x k) by what was fitted.
     `parts`: slices of rows without a gap. Columns that say nothing may be there. `longest`: L; if it is not given that of a random
     walk from zero on, what moves all rows alike having its variance, n^2/3."""
-    basis, size = _basis(derivatives), max(numpy.linalg.norm(residuals), 1e-150)
-    n, k = basis.shape
+    basis = _basis(derivatives)
+    for _ in range(2):  # what derivatives explain says nothing of the noise; of exact data it is all but rounding
+        residuals = residuals - basis @ (basis.T @ residuals)
+    size, (n, k) = max(numpy.linalg.norm(residuals), 1e-150), basis.shape
     freedom, lengths = n - k, tuple(part.stop - part.start for part in parts)
     if freedom < FEWEST_FREE or size == 1e-150:
         return Noise(parts, numpy.ones((1, n)), numpy.ones(1), numpy.array([size**2 / max(1, freedom)]), max(1, freedom), True)

@@ -97,6 +97,16 @@ def check_values(name, found, expected):
     report(f"{name}: parameters of a curve without noise to 1e-4", worst < 1e-4, worst)
 
 
+def check_noise_that_is_all_but_explained():
+    """What derivatives explain of residuals is no noise, however little else there is, as where curves are exact."""
+    generator = numpy.random.default_rng(1)
+    derivatives, rest = generator.standard_normal((200, 5)), generator.standard_normal(200)
+    explained = derivatives @ [1.0, -2.0, 0.5, 3.0, 1.5]
+    for size in (1e-3, 1e-6, 1e-8, 1e-9, 1e-11):
+        sd = noise.estimate(explained + size * rest, derivatives, [slice(0, 200)]).sd
+        report(f"noise of {size:g} beside what is explained", abs(sd / size / rest.std(ddof=5) - 1) < 0.05, sd)
+
+
 def check_exact_curves():
     five = {"mu_ub": 0.58, "a_s": 0.022, "b_s": 0.74, "eps_n": 585, "eps_t": 700}
     measured("clean.csv")
@@ -751,6 +761,7 @@ def check_ends():
 def main():
     with tempfile.TemporaryDirectory() as directory:
         os.chdir(directory)
+        check_noise_that_is_all_but_explained()
         check_exact_curves()
         check_uneven_noise()
         check_signs()

@@ -41,7 +41,7 @@ FIELDS = {
     "pressure_MPa": ("p [MPa]", None, None, "pressure [MPa]"),
     "gap_mm": ("gₙ [mm]", None, None, "normal gap [mm]"),
     "state": ("state", 0, 3, "contact state"),
-    "left_by_opening": ("d", 0, 1, "what opening has left of the bond"),
+    "left_by_opening": ("d", 0, 1, "what opening (mixed mode: damage) has left of the bond"),
     "left_by_slip": ("s", 0, 1, "what slip has left of the bond"),
     "mode_deg": ("ψ [°]", 0, 90, "angle of the traction to the normal [deg]"),
 }

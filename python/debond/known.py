@@ -13,10 +13,11 @@ from .experiment import RIG, Experiment
 from .measurement import given
 
 # Numbers of a test, without those of meshes and of what is drawn by chance; the scene says which of them it does not read.
-_NUMBERS = re.compile("Implant / (Radius|Inner radius|Cap radius|Height|Taper angle|Thread depth)|Bone / Outer radius|(Bone|Implant) / (Young modulus|Poisson ratio)"
+_NUMBERS = re.compile("Implant / (Radius|Inner radius|Cap radius|Height|Taper angle|Pitch|Thread depth|Size)|Bone / Outer radius|(Bone|Implant) / (Young modulus|Poisson ratio)"
                       "|Interface / (?!Quadrature|Friction starts|Bonding / )|Interface / Bonding / Bond|Closed form / (Normal|Torsional) stiffness"
-                      "|Chuck / .*Stiffness|Chuck / (Press|Translation z) / Value")
+                      "|Chuck / .*(Stiffness|/ Value)")
 _SHARES = ("Bonding degree", "Bonded fraction", "Adhesive friction")  # at most 1
+_COMPONENTS = [f"{motion} {axis}" for motion in ("Translation", "Rotation") for axis in "xyz"]
 _JUMP = 0.05  # of the largest value, which 1 % of a number changes where a jump moves
 _NAMES = {"deg": "angle", "mm": "displacement", "N mm": "torque", "N": "force"}
 
@@ -26,7 +27,8 @@ def _unit_of(entry, values):
     if entry.endswith("Interference"):
         return "mm"
     if entry.endswith("Value"):
-        return "N" if values[entry.replace("Value", "Control")] == "force" else "mm"
+        is_loaded, turns = values[entry.replace("Value", "Control")] in ("force", "moment"), "Rotation" in entry
+        return ("N mm" if turns else "N") if is_loaded else "deg" if turns else "mm"
     return _debond.unit_of(entry)
 
 
@@ -37,11 +39,11 @@ def _changed_number(entry, text):
     if entry.endswith(("Value", "Interference")):
         return "+1 %", f"({text}) * 1.01"
     try:
-        number = float(text)
+        numbers = [float(part) for part in text.split(",")]
     except ValueError:
         return ()
-    percent = -1 if entry.endswith(_SHARES) and 1.01 * number > 1 else 1
-    return f"{percent:+} %", repr((1 + 0.01 * percent) * number)
+    percent = -1 if entry.endswith(_SHARES) and 1.01 * numbers[0] > 1 else 1
+    return f"{percent:+} %", ", ".join(repr((1 + 0.01 * percent) * number) for number in numbers)
 
 
 def _changes(fit):
@@ -63,8 +65,9 @@ def _changes(fit):
 
 def _moves_along(experiment, entry):
     """Whether the entry prescribes the motion that curves are drawn over: then it says how far they go, not what they are."""
-    return (entry.endswith("Value") and experiment.over.kind == "position" and experiment.over.component == 2
-            and experiment.values[entry.replace("Value", "Control")] == "displacement")
+    component = entry.replace("Press", "Translation z").split(" / ")[1:2]
+    return (entry.endswith("Value") and experiment.over.kind == "position" and component == _COMPONENTS[experiment.over.component:][:1]
+            and experiment.values[entry.replace("Value", "Control")] not in ("force", "moment"))
 
 
 def _changes_of_rig(fit, experiment):

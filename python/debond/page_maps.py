@@ -16,7 +16,7 @@ REDS = ("#fff5f0", "#fee0d2", "#fcbba1", "#fc9272", "#fb6a4a", "#ef3b2c", "#cb18
 QUANTITIES = (("pressure_MPa", "Pressure", "MPa", BLUES, None, None),
               ("slip_mm", "Sliding distance gₛ", "mm", BROWNS, 0., None),
               ("phi", "Bonding state φ", "", VIRIDIS, 0., 1.), ("mu", "Friction coefficient μ", "", VIRIDIS, None, None),
-              ("left_by_opening", "Bond left by opening", "", VIRIDIS, 0., 1.),
+              ("left_by_opening", "Bond left by opening or damage", "", VIRIDIS, 0., 1.),
               ("left_by_slip", "Bond left by slip", "", VIRIDIS, 0., 1.),
               ("mode_deg", "Mode of the traction: 0 opening, 90 sliding", "°", VIRIDIS, 0., 90.))
 STATES = (("open", "#d8d8d8"), ("sticks", "#fde725"), ("slides", "#6fb3bf"), ("pulled, without friction", "#b5367a"))

@@ -287,7 +287,7 @@ namespace Debond
           .or_word_for("auto", ""),
         "Columns of Reference curve with angle and torque, or with the "
         "quantities of Curve: each by name or by number from 1, with a unit "
-        "(deg, rad, mrad; mm, um, m; N mm, mN m, N cm, N m, kN m; N, kN) "
+        "(such as deg, rad; mm, um; N mm, N cm, N m; N, kN) "
         "where the file has none: Winkel [rad], 3 [N m]. A minus before the "
         "unit, 3 [-N m], turns the sign. `auto': angle_deg and torque_Nmm, "
         "or the columns of torque.csv that Curve names, else the only ones "

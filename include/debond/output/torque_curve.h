@@ -55,7 +55,7 @@ namespace Debond
     /** Energy that jumps have released so far, see ReleasedEnergy. */
     double released_energy_Nmm = 0;
     double share_pulled        = 0; ///< in tension, and without friction
-    double damage_Nmm          = 0; ///< part of dissipation_Nmm, by opening
+    double damage_Nmm          = 0; ///< part of dissipation_Nmm, of bonds
     /** Part of adhesive_work_Nmm: of tractions across the interface. */
     double adhesive_normal_Nmm = 0;
     /** Of the machine along z, as machine_angle_deg. */

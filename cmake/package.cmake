@@ -41,7 +41,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libdebond-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libdeal.ii-dev (>= 9.4)" "libeigen3-dev (>= 3.4)" libopenblas-dev libsuitesparse-dev libpng-dev libnifti-dev
+    "libdeal.ii-dev (>= 9.4)" "libeigen3-dev (>= 3.4)" libopenblas-dev libsuitesparse-dev libpng-dev
     "nlohmann-json3-dev (>= 3.11)")
 list(JOIN CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${summary} (library)

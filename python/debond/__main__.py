@@ -4,6 +4,7 @@ calibrate SCENE.prm   find the unknowns of a scene with Task = calibrate
 compare DIR CURVE     compare results with a measured curve
 ensemble DIR          statistics of a study over its random members
 measured FILE         read a table of a laboratory, write it as plain CSV
+nifti FILE.nii FILE.mha   write a NIfTI image as a MetaImage, which scenes read
 page DIR              write report.html of the results in a directory
 specimens SCENE TABLE fit many specimens
 """
@@ -25,6 +26,7 @@ COMMANDS = {
     "ensemble": ("DIR, a finished study", 1, {}),
     "measured": ("FILE [--columns LIST] [--curves angle_deg,torque_Nmm]", 1,
                  {"--columns": "", "--curves": "angle_deg,torque_Nmm", "--entry": "FILE", "--columns-entry": "--columns"}),
+    "nifti": ("FILE.nii FILE.mha, an image to read and one to write", 2, {}),
     "page": ("DIR, a directory of results", 1, {}),
     "specimens": ("TEMPLATE.prm TABLE [--out DIR] [--jobs N]", 2, {"--out": "", "--jobs": PROCESSORS}),
 }

@@ -287,12 +287,14 @@ namespace Debond
       StoredVoxels stored;
       if (ends_in(".mhd") || ends_in(".mha"))
         stored = read_meta_image(filename, refuse);
-      else if (ends_in(".nii") || ends_in(".nii.gz"))
-        stored = read_nifti_image(filename, refuse);
       else if (ends_in(".csv"))
         stored = read_csv_voxels(filename, entry, refuse);
       else
-        refuse("expected the name of a .mhd, .mha, .nii, .nii.gz or .csv file");
+        refuse(std::string("expected the name of a .mhd, .mha or .csv file") +
+               (ends_in(".nii") || ends_in(".nii.gz") ?
+                  ": python3 -m debond nifti " + filename +
+                    " voxels.mha writes one of it" :
+                  ""));
       for (const double edge : stored.spacing)
         if (!(edge > 0. && std::isfinite(edge)))
           refuse("its voxels have an edge of " + to_text(edge) +

@@ -94,7 +94,7 @@ namespace Debond
       "File",
       file,
       Allowed::text("the name of a file", false).or_word_for("none", ""),
-      "Pattern image: PNG or PGM, grey levels from 0 (black) to 1 (white) are "
+      "Pattern image: PNG, grey levels from 0 (black) to 1 (white) are "
       "phi_0; the picture spans the square around the contact face (of a "
       "block, a file or a side: the rectangle), its right is +x and its top "
       "+y. Pattern file: CSV whose first line names its columns: "
@@ -109,8 +109,8 @@ namespace Debond
               Allowed::whole_number(1, 65535).or_word_for("auto", "0"),
               "Grey level in the file that is white, phi_0 = 1, for Pattern = "
               "image: 4095 for 12 bits in a file of 16. `auto': the largest "
-              "that the format has, 255 or 65535, or what the file says; a "
-              "dark one of 16 bits is refused.");
+              "that the format has, 255 or 65535; a dark one of 16 bits is "
+              "refused.");
     table.add(
       "Threshold",
       threshold,

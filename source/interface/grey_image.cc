@@ -9,9 +9,7 @@
 #include <png.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
-#include <locale>
 
 namespace Debond
 {
@@ -90,7 +88,6 @@ namespace Debond
 
   namespace
   {
-    using boost::endian::load_big_u16;
     using boost::endian::load_big_u32;
 
     constexpr unsigned int largest_side = 10000; ///< pixels
@@ -120,34 +117,23 @@ namespace Debond
                  to_text(largest_side) + " in each direction");
       }
 
-      /** The level that counts as 1, where the file has room for levels up to
-       *  @p own and has none above @p largest. Cameras write 10, 12 or 14 bits
-       *  into files of 16, and masks are 0 and 1: nearly black, which may not
-       *  be meant, unless @p is_told by the file. */
+      /** The level that counts as 1 where the format has room for levels up to
+       *  @p most and the picture has none above @p largest. Cameras write 10,
+       *  12 or 14 bits into files of 16, and masks are 0 and 1: nearly black,
+       *  which may not be meant. */
       unsigned int
-      white_level(const unsigned int own,
-                  const unsigned int largest,
-                  const bool         is_told = false) const
+      white_level(const unsigned int most, const unsigned int largest) const
       {
-        const auto so_many = [&](const std::string &limit) {
-          return "the levels of this picture go up to " +
-                 std::to_string(largest) + limit;
-        };
+        const std::string levels =
+          "the levels of this picture go up to " + std::to_string(largest);
         if (white > 0 && largest > white)
-          refuse(so_many(": expected White level = ") + std::to_string(white) +
+          refuse(levels + ": expected White level = " + std::to_string(white) +
                  " at most");
-        const bool is_dark =
-          largest == 1 ? own >= 255 : own == 65535 && largest < 1 << 14;
-        if (white > 0 || largest == 0 || !is_dark || is_told)
-          return white > 0 ? white : own;
-        unsigned int bits = 1;
-        while (largest >> bits != 0)
-          ++bits;
-        refuse(so_many(" of ") + std::to_string(own) + ", as if they had " +
-               std::to_string(bits) + (bits == 1 ? " bit" : " bits") +
-               ": which one is white? Set White level = " +
-               std::to_string((1 << bits) - 1) + ", or " + std::to_string(own) +
-               " if the picture is that dark");
+        if (white == 0 && (largest == 1 ||
+                           (most == 65535 && largest > 0 && largest < 1 << 14)))
+          refuse(levels + " of " + std::to_string(most) +
+                 ": set White level to the one that is white");
+        return white > 0 ? white : most;
       }
     };
 
@@ -162,13 +148,9 @@ namespace Debond
 
 
     /** A PNG file with those chunks only that make up the picture, their sums
-     *  checked: others, such as those about colours, change no grey level.
-     *  @p bits: how many of each channel are significant, 0 if it does not say.
-     */
+     *  checked: others, such as those about colours, change no grey level. */
     std::string
-    essence_of_png(const ImageFile   &file,
-                   const std::string &bytes,
-                   unsigned int      &bits)
+    essence_of_png(const ImageFile &file, const std::string &bytes)
     {
       const std::size_t signature = 8, around = 12; // length, type, sum
       if (bytes.compare(0, signature, "\x89PNG\r\n\x1a\n") != 0)
@@ -191,8 +173,6 @@ namespace Debond
             file.refuse("this PNG file is damaged");
           if (type == "IHDR" && length == 13)
             file.check_size(number(8), number(12));
-          if (type == "sBIT" && length > 0)
-            bits = std::min<unsigned int>(16, *bytes_at(bytes, position + 8));
           for (const char *const wanted :
                {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"})
             if (type == wanted)
@@ -204,36 +184,6 @@ namespace Debond
 
 
 
-    /** The level that counts as 1 of @p channels, of which @p n make a pixel.
-     * @p bits: of 16 so many are significant; 0: the file does not say. */
-    template <typename Channel>
-    unsigned int
-    white_level(const std::vector<Channel> &channels,
-                const unsigned int          n,
-                const unsigned int          bits,
-                const ImageFile            &file)
-    {
-      constexpr unsigned int most    = std::numeric_limits<Channel>::max();
-      unsigned int           largest = 0, together = 0;
-      for (std::size_t i = 0; i < channels.size(); ++i)
-        if (i % n < (n < 3 ? 1 : 3)) // no opacity
-          {
-            largest = std::max<unsigned int>(largest, channels[i]);
-            together |= channels[i];
-          }
-      if (sizeof(Channel) == 1 || bits == 0)
-        return file.white_level(most, largest);
-      // By the standard significant bits stand at the high end. Where there are
-      // none, and the low end has some, they stand there.
-      const bool are_high = bits == 16 || largest >> bits != 0,
-                 are_low  = !are_high && (together & (most >> bits)) != 0;
-      return file.white_level(are_low ? (1U << bits) - 1 : most,
-                              largest,
-                              are_high || are_low);
-    }
-
-
-
     /** The levels of pixels with one or more channels: grey or red, green and
      *  blue, then opacity if their number is even; what is transparent is
      *  black. False if libpng cannot read what
@@ -241,7 +191,6 @@ namespace Debond
     template <typename Channel>
     bool
     read_levels(png_image          &png,
-                const unsigned int  bits,
                 const ImageFile    &file,
                 std::vector<float> &levels)
     {
@@ -249,9 +198,13 @@ namespace Debond
       if (png_image_finish_read(&png, nullptr, channels.data(), 0, nullptr) ==
           0)
         return false;
-      constexpr double   most  = std::numeric_limits<Channel>::max();
-      const unsigned int n     = PNG_IMAGE_PIXEL_CHANNELS(png.format);
-      const double       white = white_level(channels, n, bits, file);
+      constexpr unsigned int most    = std::numeric_limits<Channel>::max();
+      const unsigned int     n       = PNG_IMAGE_PIXEL_CHANNELS(png.format);
+      unsigned int           largest = 0;
+      for (std::size_t i = 0; i < channels.size(); ++i)
+        if (i % n < (n < 3 ? 1 : 3)) // no opacity
+          largest = std::max<unsigned int>(largest, channels[i]);
+      const double white = file.white_level(most, largest);
       // libpng has multiplied channels of 16 bits by the opacity already
       const bool multiply = n % 2 == 0 && sizeof(Channel) == 1;
       for (auto pixel = channels.cbegin(); pixel != channels.cend(); pixel += n)
@@ -261,7 +214,8 @@ namespace Debond
                pixel[0] :
                (30. * pixel[0] + 59. * pixel[1] + 11. * pixel[2]) / 100.) /
             white;
-          levels.push_back(multiply ? level * pixel[n - 1] / most : level);
+          levels.push_back(multiply ? level * pixel[n - 1] / double(most) :
+                                      level);
         }
       return true;
     }
@@ -275,8 +229,7 @@ namespace Debond
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
-      unsigned int      bits    = 0;
-      const std::string essence = essence_of_png(file, bytes, bits);
+      const std::string essence = essence_of_png(file, bytes);
       GreyImage         image;
       png_image         png{};
       png.version = PNG_IMAGE_VERSION;
@@ -288,8 +241,8 @@ namespace Debond
           image.width  = png.width;
           image.height = png.height;
           is_read      = (png.format & PNG_FORMAT_FLAG_LINEAR) != 0 ?
-                           read_levels<png_uint_16>(png, bits, file, image.levels) :
-                           read_levels<png_byte>(png, bits, file, image.levels);
+                           read_levels<png_uint_16>(png, file, image.levels) :
+                           read_levels<png_byte>(png, file, image.levels);
         }
       if (!is_read)
         file.refuse("this file is damaged: it begins like a PNG file but "
@@ -299,94 +252,6 @@ namespace Debond
 
 
 
-    /** The numbers in the header of a PGM file, or all of a plain one. */
-    struct PgmNumbers
-    {
-      const ImageFile   &file;
-      const std::string &bytes;
-      std::size_t        position = 2; ///< after P2 or P5
-
-      /** Passes over blanks, and over comments from # to the end of the line.
-       *  Returns whether nothing else is left. */
-      bool
-      at_end()
-      {
-        while (position < bytes.size() &&
-               (std::isspace(bytes[position], std::locale::classic()) ||
-                bytes[position] == '#'))
-          position = bytes[position] == '#' ?
-                       std::min(bytes.find('\n', position), bytes.size()) :
-                       position + 1;
-        return position == bytes.size();
-      }
-
-      /** The next number, at most @p largest. */
-      unsigned int
-      next(const std::string &what, const unsigned int largest)
-      {
-        at_end();
-        unsigned int      value = 0;
-        const char *const first = bytes.data() + position;
-        const auto [behind, error] =
-          std::from_chars(first, bytes.data() + bytes.size(), value);
-        if (error == std::errc::invalid_argument)
-          file.refuse("this PGM file is damaged or cut off: " + what +
-                      " is missing or no number");
-        if (error == std::errc::result_out_of_range || value > largest)
-          file.refuse(what + " is more than " + std::to_string(largest));
-        position += behind - first;
-        return value;
-      }
-    };
-
-
-
-    // Boost.GIL reads PGM, but up to 8 bits only, does not scale levels
-    // to the largest one, inverts those whose largest is 1, and takes a plain
-    // file that is cut off for a whole one.
-    GreyImage
-    read_pgm(const ImageFile &file, const std::string &bytes)
-    {
-      PgmNumbers numbers{file, bytes};
-      GreyImage  image;
-      image.width  = numbers.next("the width", 1000000);
-      image.height = numbers.next("the height", 1000000);
-      file.check_size(image.width, image.height);
-      const unsigned int largest = numbers.next("the largest level", 65535);
-      if (largest == 0)
-        file.refuse("the largest level of this PGM file is 0: expected 1 to "
-                    "65535");
-
-      const std::size_t n     = std::size_t(image.width) * image.height;
-      const bool        plain = bytes[1] == '2';
-      const std::size_t size  = largest > 255 ? 2 : 1; // bytes of a pixel
-      std::size_t       begin = numbers.position + 1;  // after a white space
-      // one white space ends the header, but some write a carriage return more
-      if (!plain && bytes.size() == begin + n * size + 1 &&
-          bytes.compare(begin - 1, 2, "\r\n") == 0)
-        ++begin;
-      if (bytes.size() < (plain ? n : begin + n * size))
-        file.refuse("this PGM file is cut off: it has fewer pixels than its "
-                    "header says");
-      for (std::size_t i = 0; i < n; ++i)
-        {
-          const unsigned int level =
-            plain     ? numbers.next("a level", largest) :
-            size == 1 ? *bytes_at(bytes, begin + i) :
-                        load_big_u16(bytes_at(bytes, begin + 2 * i));
-          if (level > largest)
-            file.refuse("a level of this PGM file is more than its largest, " +
-                        std::to_string(largest));
-          image.levels.push_back(static_cast<float>(level));
-        }
-      if (plain ? !numbers.at_end() : bytes.size() > begin + n * size)
-        file.refuse("this PGM file has more pixels than its header says");
-      const auto white = static_cast<float>(file.white_level(
-        largest, *std::max_element(image.levels.begin(), image.levels.end())));
-      for (float &level : image.levels)
-        level /= white;
-      return image;
-    }
   } // namespace
 
 
@@ -399,10 +264,8 @@ namespace Debond
     const ImageFile   file{filename, entry, white};
     const std::string bytes = read_input_bytes(
       filename, [&file](const std::string &why) { file.refuse(why); }, 500);
-    if (bytes.compare(0, 4, "\x89PNG") == 0)
-      return read_png(file, bytes);
-    if (bytes.compare(0, 2, "P2") == 0 || bytes.compare(0, 2, "P5") == 0)
-      return read_pgm(file, bytes);
-    file.refuse("this is neither a PNG nor a PGM file");
+    if (bytes.compare(0, 4, "\x89PNG") != 0)
+      file.refuse("this is no PNG file: convert the picture");
+    return read_png(file, bytes);
   }
 } // namespace Debond

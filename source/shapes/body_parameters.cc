@@ -348,18 +348,18 @@ namespace Debond
       },
       Allowed::choice(names),
       text);
-    table.add("Mesh file",
-              mesh_file,
-              Allowed::text("the name of a file of hexahedra", false)
-                .or_word_for("none", ""),
-              "File with the hexahedra of the body, for Shape = file: Gmsh "
-              "(.msh), Abaqus (.inp) or VTK (.vtk), relative to the working "
-              "directory. Lengths are in mm, the contact face is near z = 0, "
-              "the chuck on the z axis. Groups of faces have these names: "
-              "contact; held; slides x, slides y, slides z (held along x, y "
-              "or z only); axial (moves along z only). Other faces are free. "
-              "The contact face is bilinear, or of degree two with Element = "
-              "quadratic, which files of second order need.");
+    table.add(
+      "Mesh file",
+      mesh_file,
+      Allowed::text("the name of a file of hexahedra", false)
+        .or_word_for("none", ""),
+      "File with the hexahedra of the body, for Shape = file: Gmsh "
+      "(.msh) or Abaqus (.inp), relative to the working directory. Lengths are in mm, the contact face is near z = 0, "
+      "the chuck on the z axis. Groups of faces have these names: "
+      "contact; held; slides x, slides y, slides z (held along x, y "
+      "or z only); axial (moves along z only). Other faces are free. "
+      "The contact face is bilinear, or of degree two with Element = "
+      "quadratic, which files of second order need.");
   }
 
 
@@ -411,15 +411,15 @@ namespace Debond
         "1000)^1.49). It is evaluated at the Gauss points of the cells, or "
         "averaged over the voxels around them: let it jump at sides of cells. "
         "Not used by a rigid body.");
-    table.add("Voxel file",
-              voxel_file,
-              Allowed::text("the name of a file of voxels", false)
-                .or_word_for("none", ""),
-              "File with a grey value for each voxel of the bone, such as a "
-              "CT image, relative to the working directory: MetaImage (.mhd, "
-              ".mha), NIfTI (.nii, .nii.gz), or CSV with columns x,y,z,grey "
-              "of the centres [mm]. Young modulus says how grey values "
-              "become moduli. `none': no voxels.");
+    table.add(
+      "Voxel file",
+      voxel_file,
+      Allowed::text("the name of a file of voxels", false)
+        .or_word_for("none", ""),
+      "File with a grey value for each voxel of the bone, such as a "
+      "CT image, relative to the working directory: MetaImage (.mhd, "
+      ".mha), or CSV with columns x,y,z,grey of the centres [mm]. Young modulus says how grey values "
+      "become moduli. `none': no voxels.");
     const AllowedValues places = Allowed::list(Allowed::number("mm"), 3, 3);
     table.add("Voxel corner",
               voxel_corner,
@@ -428,8 +428,7 @@ namespace Debond
               "voxels. `centred': the implant is in the middle of the grid, "
               "and the top of the grid is the top of the bone. `file': as "
               "the file says. Axes of MetaImage: x to the patient's left, y "
-              "to the back, z to the head; those of NIfTI files are "
-              "converted.");
+              "to the back, z to the head.");
   }
 
 

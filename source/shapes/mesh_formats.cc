@@ -96,10 +96,9 @@ namespace Debond
                            std::locale::classic());
     if (ending == ".inp")
       return read_abaqus_mesh(filename, refuse);
-    if (ending == ".vtk")
-      return read_vtk_mesh(filename, refuse);
     if (ending != ".msh")
-      refuse("expected a file .msh of Gmsh, .inp of Abaqus or .vtk of VTK");
+      refuse(std::string("expected a file .msh of Gmsh or .inp of Abaqus") +
+             (ending == ".vtk" ? ": Gmsh or meshio write .msh of it" : ""));
     return read_gmsh_mesh(filename, refuse);
   }
 } // namespace Debond

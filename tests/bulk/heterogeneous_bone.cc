@@ -272,41 +272,6 @@ struct Voxels
       raw.put(static_cast<char>(grey >> 8)).put(static_cast<char>(grey & 255));
     });
   }
-
-  // a NIfTI-1 file: its header has 348 bytes; scaled, the values are grey
-  static void
-  write_nii()
-  {
-    std::vector<char> header(352, 0);
-    const auto        put = [&](const std::size_t at, const auto &value) {
-      std::memcpy(&header[at], &value, sizeof(value));
-    };
-    put(0, std::int32_t(348));
-    const std::int16_t dim[]{3, 16, 16, 12, 1, 1, 1, 1};
-    put(40, dim);
-    put(70, std::int16_t(4)); // 16-bit integers
-    put(72, std::int16_t(16));
-    const float pixdim[]{1, 250, 250, 250, 1, 1, 1, 1};
-    put(76, pixdim);
-    put(108, 352.f);
-    put(112, 0.5f);  // slope
-    put(116, 50.f);  // intercept
-    header[123] = 3; // micrometres
-    // where the centre of the first voxel is, by the rows of a matrix only; x
-    // and y of NIfTI run against those of MetaImage
-    put(254, std::int16_t(1));
-    const float rows[3][4]{{-250, 0, 0, -125},
-                           {0, -250, 0, -250},
-                           {0, 0, 250, -2875}};
-    put(280, rows);
-    std::memcpy(&header[344], "n+1", 4);
-    std::ofstream file("voxels.nii", std::ios::binary);
-    file.write(header.data(), header.size());
-    for_each([&](double, double, double, const unsigned int grey) {
-      const std::int16_t value = 2 * (grey - 50);
-      file.write(reinterpret_cast<const char *>(&value), sizeof(value));
-    });
-  }
 };
 
 
@@ -330,7 +295,6 @@ check_voxels()
 {
   Voxels::write_csv();
   Voxels::write_mhd();
-  Voxels::write_nii();
   // the same by the place: voxel numbers i, j, k
   const std::string of_place =
     "40 * (100 + 10 * floor(4 * (x + 2)) + 3 * floor(4 * (y + 2)) + 5 * "
@@ -342,7 +306,7 @@ check_voxels()
       const BulkSpace     mesh(bone_of(of_place, "", n), Side::bone);
       const EnrichedCells by_place(mesh, {});
       for (const std::string voxels :
-           {"voxels.csv", "voxels.mhd", "voxels.nii"})
+           {"voxels.csv", "voxels.mhd"})
         {
           const BulkSpace other(bone_of("40 * grey", voxels, n), Side::bone);
           const EnrichedCells by_voxels(other, {});
@@ -374,12 +338,6 @@ check_voxels()
                  1e-6);
         }
     }
-  const auto   corner = read_voxel_image("voxels.nii", "")->corner;
-  const double expected[]{0., 0.125, -3.};
-  double       distance = 0.;
-  for (unsigned int d = 0; d < 3; ++d)
-    grow(distance, std::abs(corner[d] - expected[d]));
-  report("corner of voxels.nii [mm]", distance, 1e-6);
 }
 
 

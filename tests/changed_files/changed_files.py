@@ -244,14 +244,14 @@ def check_memory():
 
 def check_change_during_study():
     """A picture that changes while the first variant runs: the second one is not of the scenes that were read."""
-    whole, half = (os.path.join(here, 'files', name) for name in ('whole.pgm', 'half.pgm'))
-    put(whole, 'picture.pgm', 0)
-    options = with_entries('Interface/Bonding/Pattern=image', 'Interface/Bonding/File=picture.pgm', 'Load steps/Steps=1, 300',
+    whole, half = (os.path.join(here, 'files', name) for name in ('whole.png', 'half.png'))
+    put(whole, 'picture.png', 0)
+    options = with_entries('Interface/Bonding/Pattern=image', 'Interface/Bonding/File=picture.png', 'Load steps/Steps=1, 300',
                            'Implant/Poisson ratio={{0.3|0.31}}', 'Output/Directory=study')
     study = subprocess.Popen([debond, 'scene.prm', *options, '--jobs', '1'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while study.poll() is None and not os.path.exists('study/variant-001/torque.csv'):
         time.sleep(0.01)
-    put(half, 'picture.pgm', 1000)
+    put(half, 'picture.png', 1000)
     study.wait()
     rows = table('study/study.csv')
     expect(study.returncode == 2 and rows[0]['phi_0_mean'] == '1' and

@@ -1,4 +1,4 @@
-// Fuzz target: pictures, PNG and PGM. The check sums of PNG files, which no
+// Fuzz target: pictures. The check sums of PNG files, which no
 // mutation keeps, are put right first.
 
 #include <debond/interface/bonding_source.h>

@@ -20,7 +20,7 @@ seeds_of() {
       ls prm/*.prm "$files"/*.prm "$work"/bad_scenes/*.prm
       ;;
     csv) ls "$files"/*.csv "$here"/seeds/csv/* ;;
-    image) ls "$files"/*.png "$files"/*.pgm "$here"/seeds/image/* ;;
+    image) ls "$files"/*.png "$here"/seeds/image/* ;;
     expression) ls "$here"/seeds/expression/* ;;
   esac
 }

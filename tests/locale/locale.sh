@@ -16,8 +16,7 @@ mkdir locales && mv "$german.locale" "locales/$german"
 export LOCPATH="$directory/locales"
 
 # Inputs: a picture, voxels, and tables of this program and of an instrument that writes commas.
-cp "$here"/input/*.prm input
-awk 'BEGIN { print "P2 40 40 200"; for (i = 0; i < 1600; ++i) print (i * 37) % 201 }' > input/picture.pgm
+cp "$here"/input/*.prm "$here"/input/picture.png input
 printf 'ObjectType = Image\nNDims = 3\nDimSize = 25 25 10\nElementSpacing = 0.5 0.5 0.5\nElementType = MET_UCHAR\n' > input/voxels.mhd
 echo 'ElementDataFile = voxels.raw' >> input/voxels.mhd
 awk 'BEGIN { for (i = 0; i < 6250; ++i) printf "%c", 33 + (i * 7) % 90 }' > input/voxels.raw

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "png_file.h"
 
 using namespace Debond;
 namespace fs = std::filesystem;
@@ -162,7 +163,7 @@ small_scene(const std::vector<std::string> &overrides = {})
     subsection Interface
       subsection Bonding
         set Pattern = image
-        set File    = results/pattern.pgm
+        set File    = results/pattern.png
       end
     end
     subsection Chuck
@@ -211,7 +212,7 @@ void
 leave_unfinished_run()
 {
   fs::remove_all(directory);
-  put("results/pattern.pgm", "P2 2 2 255 0 255 255 255\n");
+  put("results/pattern.png", png_file(2, {0, 255, 255, 255}));
   fs::create_directories(directory);
   fs::create_symlink("/dev/full", directory + "/bulk-0005.vtu.partial");
   print_error<WriteError>("Fields on a full disk",
@@ -237,9 +238,9 @@ test_scenes()
   print_found("Another scene",
               own,
               {"Interface/Viscosity=0.5", "Load steps/Steps=1, 5"});
-  put("results/pattern.pgm", "P2 2 2 255 0 255 255 100\n");
+  put("results/pattern.png", png_file(2, {0, 255, 255, 100}));
   print_found("Another image in the same file", "");
-  put("results/pattern.pgm", "P2 2 2 255 0 255 255 255\n");
+  put("results/pattern.png", png_file(2, {0, 255, 255, 255}));
 
   const std::string newest = bytes_of(slots[0]);
   {

@@ -14,7 +14,7 @@ program=$(ls "$packages"/debond_*.deb) library=$(ls "$packages"/libdebond-dev_*.
 
 if [[ -z $example ]]; then
   dpkg-deb -f "$program" Package Recommends
-  dpkg-deb -f "$program" Depends | grep -oE "\b(libdeal.ii-9|libopenblas0|libpng16-16|libnifti2-2)(t64)?\b" | sed s/t64// | sort
+  dpkg-deb -f "$program" Depends | grep -oE "\b(libdeal.ii-9|libopenblas0|libpng16-16)(t64)?\b" | sed s/t64// | sort
   dpkg-deb -x "$program" root
   dpkg-deb -x "$library" root
   (cd root/usr/share/doc && ls debond/{README.md,README.Debian} {debond,libdebond-dev}/{copyright,changelog.Debian.gz})

@@ -228,8 +228,8 @@ def run(entries, files, stem):
     names = {}
     for key, file in files.items():
         names["{" + key + "}"] = name = f"{stem}.{key}.{file.suffix}"
-        with open(name, "w", encoding="ascii") as out:
-            out.write(file.text())
+        with open(name, "wb") as out:
+            out.write(file.content())
     try:
         scene = debond.Scene(None, {name: names.get(text, text) for name, text in entries.items()})
         return scene, scene.run()

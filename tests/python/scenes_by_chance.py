@@ -3,6 +3,8 @@ that no state is a tie that rounding decides: nothing stands still at its limit 
 
 import math
 import random
+import struct
+import zlib
 
 import numpy
 
@@ -29,15 +31,15 @@ class Table:
             columns.update(zip("xyz"[:3 if "z" in columns else 2], L * P @ places))
         return Table(**columns)
 
-    def text(self):
+    def content(self):
         rows = [",".join(repr(float(value)) for value in row) for row in zip(*self.columns.values())]
-        return "\n".join([",".join(self.columns), *rows]) + "\n"
+        return ("\n".join([",".join(self.columns), *rows]) + "\n").encode()
 
 
 class Picture:
     """Of 8 bits, as it is written: rows from the top."""
 
-    suffix = "pgm"
+    suffix = "png"
 
     def __init__(self, grey):
         self.grey = grey
@@ -47,12 +49,16 @@ class Picture:
         grey = grey.T if P[0, 1] else grey
         return Picture(grey[::int(P[0].sum()), ::int(P[1].sum())].T[::-1])
 
-    def text(self):
-        return "\n".join(["P2", "{1} {0}".format(*self.grey.shape), "255", *(" ".join(map(str, row)) for row in self.grey)]) + "\n"
+    def content(self):
+        height, width = self.grey.shape
+        chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)),
+                  (b"IDAT", zlib.compress(b"".join(b"\0" + bytes(int(level) for level in row) for row in self.grey))), (b"IEND", b""))
+        return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+                                                 for kind, data in chunks)
 
 
 class Mesh:
-    """Hexahedra with groups of their sides; corners are numbered as Gmsh, Abaqus and VTK do."""
+    """Hexahedra with groups of their sides; corners are numbered as Gmsh and Abaqus do."""
 
     suffix = "msh"
 
@@ -90,26 +96,27 @@ class Mesh:
         cells = [turned(turned([order[v] for v in cell])) for cell in self.cells]
         mesh = Mesh(nodes, chance.sample(cells, len(cells)),
                     {name: [[order[v] for v in face] for face in faces] for name, faces in self.groups.items()})
-        mesh.suffix = "vtk"
+        mesh.suffix = "inp"
         return mesh
 
-    def text(self):
+    def content(self):
         nodes = [" ".join(repr(float(x)) for x in node) for node in self.nodes]
         names = ("contact", "held", "slides x", "slides y")
         faces = [(names.index(name) + 1, face) for name, faces in self.groups.items() for face in faces]
-        if self.suffix == "vtk":
-            cells = [f"8 {' '.join(map(str, cell))}" for cell in self.cells] + [f"4 {' '.join(map(str, face))}" for _, face in faces]
-            n, m = len(self.cells), len(faces)
-            return "\n".join(["# vtk DataFile Version 2.0", "mesh", "ASCII", "DATASET UNSTRUCTURED_GRID", f"POINTS {len(nodes)} double", *nodes,
-                              f"CELLS {n + m} {9 * n + 5 * m}", *cells, f"CELL_TYPES {n + m}", *("12" for _ in range(n)), *("9" for _ in faces),
-                              f"CELL_DATA {n + m}", "SCALARS MaterialID int", "LOOKUP_TABLE default", *("0" for _ in range(n)),
-                              *(str(group) for group, _ in faces)]) + "\n"
+        if self.suffix == "inp":
+            sides = (0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)
+            side_of = {frozenset(cell[v] for v in side): f"{c + 1}, S{s + 1}" for c, cell in enumerate(self.cells) for s, side in enumerate(sides)}
+            lines = ["*Node", *(f"{i + 1}, {node.replace(' ', ', ')}" for i, node in enumerate(nodes)), "*Element, type=C3D8",
+                     *(f"{c + 1}, {', '.join(str(v + 1) for v in cell)}" for c, cell in enumerate(self.cells))]
+            for name, own in self.groups.items():
+                lines += [f'*Surface, type=ELEMENT, name="{name}"', *(side_of[frozenset(face)] for face in own)]
+            return ("\n".join(lines) + "\n").encode()
         elements = [(f"3 2 {group} {group}", face) for group, face in faces] + [("5 2 9 9", cell) for cell in self.cells]
-        return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "5", *(f'2 {i + 1} "{name}"' for i, name in enumerate(names)),
+        return ("\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "5", *(f'2 {i + 1} "{name}"' for i, name in enumerate(names)),
                           '3 9 "body"', "$EndPhysicalNames", "$Nodes", str(len(nodes)), *(f"{i + 1} {node}" for i, node in enumerate(nodes)),
                           "$EndNodes", "$Elements", str(len(elements)),
                           *(f"{i + 1} {kind} {' '.join(str(v + 1) for v in corners)}" for i, (kind, corners) in enumerate(elements)),
-                          "$EndElements"]) + "\n"
+                          "$EndElements"]) + "\n").encode()
 
 
 class Drawn:

@@ -92,9 +92,5 @@ namespace Debond
   /** A file `.mhd` or `.mha`. */
   StoredVoxels
   read_meta_image(const std::string &filename, const FileRefusal &refuse);
-
-  /** A file `.nii` or `.nii.gz`. */
-  StoredVoxels
-  read_nifti_image(const std::string &filename, const FileRefusal &refuse);
 } // namespace Debond
 #endif

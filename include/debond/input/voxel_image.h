@@ -37,16 +37,12 @@ namespace Debond
    *
    *  - `.mhd`, `.mha`: MetaImage, a header of lines `name = value` and raw,
    *    uncompressed numbers in a file of their own or behind the header, in mm;
-   *  - `.nii`, `.nii.gz`: NIfTI-1 or 2; grey values are scaled as the file
-   *    says;
    *  - `.csv`: columns x, y, z [mm], the centres of all voxels in any order,
    *    and grey.
    *
    * The axes are those of MetaImage: where a file knows of a body, x runs to
-   * its left, y to its back and z to its head. NIfTI's x and y run the other
-   * way, unless it has neither qform nor sform: then it knows of no body.
-   * Oblique axes are refused, and so is what a header says in two ways that
-   * differ.
+   * its left, y to its back and z to its head. Oblique axes are refused, and so is
+   * what a header says in two ways that differ.
    *
    * An image that is in use is not read again unless the content of the file,
    * or of the data that it refers to, is another.

@@ -85,11 +85,10 @@ namespace Debond
   };
 
   /**
-   * Reads a PNG file (colours become grey, what is transparent black) or a PGM
-   * file (plain or raw, up to 16 bits), told apart by their first bytes. @p
-   * white: the level that counts as 1; 0: the largest that the file has room
-   * for, unless the levels seem to have fewer bits. Throws InputError that
-   * begins with the @p entry of the scene that gave the file.
+   * Reads a PNG file; colours become grey, what is transparent black. @p
+   * white: the level that counts as 1; 0: the largest that the format has.
+   * Throws InputError that begins with the @p entry of the scene that gave the
+   * file.
    */
   GreyImage
   read_grey_image(const std::string &filename,

@@ -88,7 +88,7 @@ namespace Debond
   };
 
   /**
-   * Reads a mesh of Gmsh (.msh), Abaqus (.inp) or VTK (.vtk), with the names of
+   * Reads a mesh of Gmsh (.msh) or Abaqus (.inp), with the names of
    * its groups of faces. Throws an EntryError of @p entry, "Bone / Mesh file",
    * that says what is wrong with the file: what the bulk cannot be made of is
    * refused here.

@@ -21,7 +21,7 @@ namespace Debond
   const std::vector<dealii::Point<3>> &
   places_in_hexahedron();
 
-  /** Places of the 8 or 20 nodes of Abaqus and VTK, in their order: corners
+  /** Places of the 8 or 20 nodes of Abaqus, in their order: corners
    *  around the bottom and the top, then the middles of the edges around them
    *  and between them. */
   const std::vector<unsigned int> &
@@ -75,11 +75,6 @@ namespace Debond
    */
   StoredMesh
   read_abaqus_mesh(const std::string &filename, const FileRefusal &refuse);
-
-  /** Legacy files of VTK: the groups are 1 to 6 of the data MaterialID of
-   *  quadrilaterals, the boundary ids. */
-  StoredMesh
-  read_vtk_mesh(const std::string &filename, const FileRefusal &refuse);
 
   /** One of these, by the name of the file. */
   StoredMesh

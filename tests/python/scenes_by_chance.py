@@ -222,6 +222,8 @@ class Drawn:
             self.set("Interface", Interference=pick((self.interference, f"{self.interference} * (0.2 + 0.8 * min(t, 1))")))
             return
         self.set("Bone", Size=f"{r(6, 8)}, {r(6, 8)}, {r(2, 4)}", Cells=f"{pick((4, 5))}, {pick((4, 6))}, {pick((1, 2))}")
+        if self.entries["Interface/Slave"] == "bone":  # points on x = 0 may face a border of elements: which one is rounding
+            self.entries["Bone/Cells"] = "4" + self.entries["Bone/Cells"][1:]
         if shape == "file":
             self.add_meshes()
         elif self.what[0] == "fitted coin":

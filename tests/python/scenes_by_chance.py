@@ -207,6 +207,8 @@ class Drawn:
                 self.set("Bone", Cells=f"{around}, 1, 1"), self.set("Implant", Cells=f"{around}, 1, 1")
             elif shape != "screw" and self.maybe(0.3):
                 self.set("Bone", Cells=f"{pick((8, 12, 16))}, 1, 3")
+                if int(self.entries["Interface/Quadrature points"]) % 2 and not self.entries["Bone/Cells"].startswith(f"{around},"):
+                    self.set("Interface", Quadrature_points=2)  # middles of elements may face a border, where the normal may turn
             if shape == "pin" and self.maybe(0.4):
                 self.set("Implant", Inner_radius=round(0.4 * R, 4))
             if shape == "pin" and self.maybe(0.4):

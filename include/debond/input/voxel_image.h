@@ -41,8 +41,8 @@ namespace Debond
    *    and grey.
    *
    * The axes are those of MetaImage: where a file knows of a body, x runs to
-   * its left, y to its back and z to its head. Oblique axes are refused, and so is
-   * what a header says in two ways that differ.
+   * its left, y to its back and z to its head. Oblique axes are refused, and so
+   * is what a header says in two ways that differ.
    *
    * An image that is in use is not read again unless the content of the file,
    * or of the data that it refers to, is another.

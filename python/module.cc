@@ -4,7 +4,6 @@
 #include "module.h"
 
 #include <debond/input/expression_parser.h>
-#include <debond/input/parameter_loop.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/varying_curve.h>
 #include <debond/output/curve_comparison.h>
@@ -160,24 +159,6 @@ namespace
 
 
 
-  /** Of a study or of the experiments of a calibration: entries, and full
-   *  names of those that hold several values. */
-  std::vector<std::pair<std::vector<SceneEntry>, std::vector<std::string>>>
-  variants(const std::vector<SceneEntry> &entries)
-  {
-    std::vector<std::pair<std::vector<SceneEntry>, std::vector<std::string>>>
-      result;
-    for (const StudyVariant &variant : study_variants(entries))
-      {
-        result.emplace_back(variant.entries, std::vector<std::string>());
-        for (const std::size_t i : variant.varied)
-          result.back().second.push_back(variant.entries[i].full_name());
-      }
-    return result;
-  }
-
-
-
   /** Rows and summary. */
   std::pair<py::dict, std::string>
   closed_form(const Scene &scene, const Team &team)
@@ -266,7 +247,6 @@ namespace
                py::arg("place") = "entries");
     module.def("with_values", with_values);
     module.def("text_of", scene_text);
-    module.def("variants", variants);
     module.def("expression",
                [](const std::string &names, const std::string &text)
                  -> Expression { return read_expression(names, text, 0.); });
@@ -415,6 +395,7 @@ PYBIND11_MODULE(_debond, module)
   bind_scenes(module);
   bind_curves(module);
   bind_simulation(module);
+  bind_studies(module);
   module.def("unit_of", [](const std::string &name) {
     struct Entries // of all of them, made once
     {

@@ -270,7 +270,7 @@ namespace
                              [](const Scene &s) {
                                Texts values;
                                for (const SceneEntry &entry :
-                                    read_scene_text(s.completed_parameters, ""))
+                                    s.completed_entries())
                                  values[entry.full_name()] = entry.value;
                                return values;
                              })
@@ -397,18 +397,7 @@ PYBIND11_MODULE(_debond, module)
   bind_simulation(module);
   bind_studies(module);
   module.def("unit_of", [](const std::string &name) {
-    struct Entries // of all of them, made once
-    {
-      Entries()
-      {
-        scene.declare(table);
-      }
-
-      Scene      scene;
-      EntryTable table;
-    };
-    static const Entries entries;
-    return entries.table.unit_of(name);
+    return default_entries().unit_of(name);
   });
   module.def("closed_form", closed_form);
   module.def("provenance", [] {

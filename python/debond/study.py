@@ -20,7 +20,7 @@ import _debond
 
 from .ensemble import CHANCE, write_ensemble
 from .errors import Interrupted, RunError, SceneError
-from .files import csv_text, say, write_whole
+from .files import csv_text, heeding, say, write_whole
 from .page import write_page_if_possible
 from .page_campaigns import names_of
 from .page_data import number, read_json, rows_file
@@ -175,6 +175,7 @@ class Study:
         self.name = name
         first = _debond.Scene(variants_of(entries)[0].entries, name, ALONE)
         self.directory, self.reports = first.values["Output / Directory"], first.values["Output / Report"] == "true"
+        self.say = heeding(first.values["Output / Console"], say)
         self.n_repetitions = int(first.values["Study / Repetitions"])
         at_once, reference = (first.values["Study / " + entry] for entry in ("Factors varied at once", "Reference variant"))
         variants = variants_of(entries, 0 if at_once == "all" else int(at_once))
@@ -231,16 +232,16 @@ class Study:
     def run(self, n_jobs, n_threads, force):
         lock, n_compared_anew = self.prepare(force)
         done, n = self.n_done(), len(self.variants)
-        say(f"{n} variants in {self.directory}" + f", {done} of them done already" * (done > 0))
+        self.say(f"{n} variants in {self.directory}" + f", {done} of them done already" * (done > 0))
         if n_compared_anew:
-            say(f"The content of a reference has changed: the distances of {n_compared_anew} variant{'s' * (n_compared_anew > 1)} that "
+            self.say(f"The content of a reference has changed: the distances of {n_compared_anew} variant{'s' * (n_compared_anew > 1)} that "
                 "had been done are computed anew")
         self._run_variants(n_jobs, n_threads, force)
         self.write_table()
         self.write_ensemble()
         self.name_best()
         has_page = self.reports and write_page_if_possible(self.directory)
-        say(f"Results are in {self.directory}/study.csv" + " and report.html" * has_page)
+        self.say(f"Results are in {self.directory}/study.csv" + " and report.html" * has_page)
         failed = n - self.n_done()
         if failed:
             raise RunError(f"{failed} of {n} variants failed: {self.directory}/study.csv says why")
@@ -266,7 +267,7 @@ class Study:
                     continue
                 n_ended += 1
                 progress.hide()
-                say(f"{n_ended}/{n} {variant.name}: {variant.outcome()}")
+                self.say(f"{n_ended}/{n} {variant.name}: {variant.outcome()}")
                 progress.show(f"{len(running)} at work", n_ended / n)
             if time.monotonic() - last_table > between:  # the table of a large study takes a while
                 begin = time.monotonic()
@@ -310,18 +311,18 @@ class Study:
         if best is None or self.reference or len(self.variants) == 1:
             return
         largest = number(best.summary.get("difference_max"))
-        say(f"Closest to {best.scene.values['Output / Reference curve']}: {best.name}, by {100 * mean:.2g} % in the mean and "
+        self.say(f"Closest to {best.scene.values['Output / Reference curve']}: {best.name}, by {100 * mean:.2g} % in the mean and "
             f"{100 * largest:.2g} % at most")
         for remark in best.summary.get("remarks", []):
             if remark.startswith("e_mp"):
-                say("warning: " + remark)
+                self.say("warning: " + remark)
 
     def write_ensemble(self):
         """The seed is what stands for chance."""
         if CHANCE in self.varied:
             for note in write_ensemble(self.directory):
-                say(note)
-            say(f"Statistics over all seeds are in {self.directory}/ensemble.csv and ensemble_summary.csv")
+                self.say(note)
+            self.say(f"Statistics over all seeds are in {self.directory}/ensemble.csv and ensemble_summary.csv")
             return
         for name in ("ensemble.csv", "ensemble_summary.csv"):  # of a study that was here before
             if os.path.exists(f"{self.directory}/{name}"):

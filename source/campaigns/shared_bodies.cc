@@ -36,8 +36,7 @@ namespace Debond
       text += to_text(q, 17) + " ";
     // which depends on motion, loads and path, too
     text += std::to_string(int(scene.bulk_solver())) + "\n";
-    for (const SceneEntry &entry :
-         read_scene_text(scene.completed_parameters, scene.name))
+    for (const SceneEntry &entry : scene.completed_entries())
       {
         const std::string name = entry.full_name();
         if (std::regex_match(name, of_bodies))

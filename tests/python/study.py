@@ -159,6 +159,7 @@ def check_repetitions():
     study("coin.prm", "repetitions", *changes)
     same(before, [os.stat(name).st_mtime_ns for name in (files[0], "repetitions/variant-001/summary.json")])
     check_medians()
+    same(study("coin.prm", "repetitions", *changes, "Output/Console=quiet"), "")
     row = table("repetitions")[0]
     assert 0 < float(row["seconds_before_steps"]) < float(row["wall_seconds"]) and 0 < float(row["seconds_stepping"])
 

@@ -128,6 +128,19 @@ namespace Debond
 
 
 
+  bool
+  ContactInterface::has_opened_beyond_strength(const SlavePoint &point) const
+  {
+    const InterfaceLaw &joint = *law.joint;
+    if (joint.is_cohesive())
+      return point.trial.state.damage > point.accepted.damage;
+    return joint.pulls() && point.phi_0 > 0. &&
+           point.trial.state.status != PointStatus::open &&
+           joint.opened(point.trial.state) >
+             std::max(joint.opened(point.accepted), joint.tension().gap);
+  }
+
+
   // What a step is judged by. Areas count where the implant is faced, forces
   // and energies everywhere. The local problem of a sliding point has one
   // solution while |dmu/dg_s| p < eps_t + eta/dt: the slope is asked for where

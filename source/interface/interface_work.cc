@@ -12,75 +12,26 @@ namespace Debond
 {
   namespace
   {
-    /** A point that is lifted, until it opens. */
-    struct Lifting
-    {
-      Eigen::Vector3d gap;       ///< of its tangential spring [mm]
-      Eigen::Vector3d motion;    ///< of what holds that spring [mm]
-      double          pressure;  ///< at the beginning; falls evenly to 0 [MPa]
-      double          stiffness; ///< of the spring [MPa/mm]
-      double          viscosity; ///< [MPa per speed]
-    };
-
-
-
-    // The law of the interface in small parts of the way: the spring follows
-    // the motion, and slides by what friction does not hold any more. What is
-    // dissipated is a trapezoid as that of a step [N/mm]:
-    // doc/explanation/contact.md, Energies.
+    /** Per area, what friction takes of a point that is lifted until it opens
+     *  [N/mm]. Its spring of the @p stiffness is stretched by @p gap, what
+     *  holds the spring moves by @p motion, and the @p limit of the gap falls
+     *  evenly to zero: the point sticks until both meet, and then follows the
+     *  limit. Exact while the gap keeps its direction. */
     double
-    friction_until_open(const Lifting      &lifting,
-                        const InterfaceLaw &law,
-                        PointStart          start)
+    friction_until_open(const Eigen::Vector3d &gap,
+                        const Eigen::Vector3d &motion,
+                        const double           limit,
+                        const double           stiffness)
     {
-      constexpr unsigned int n = 200;
-      start = law.begin(start.history, start.phi_0, start.duration / n);
-      // each distance is held back by this much of itself
-      const double viscous =
-        start.duration > 0. ?
-          lifting.viscosity / start.duration / lifting.stiffness :
-          0.;
-      // the gap at which that much is carried
-      const auto gap_at = [&](const double pressure, const double distance) {
-        return (law.pulls() ? 0. : law.reach(start, distance)) -
-               pressure / law.stiffness;
-      };
-      const auto per_pressure = [&](const double pressure,
-                                    const double distance) {
-        return std::max(
-          0.,
-          law.respond(start, gap_at(pressure, distance), distance).limit /
-            pressure);
-      };
-      Eigen::Vector3d gap = lifting.gap;
-      double          mu = per_pressure(lifting.pressure, 0.), lost = 0.;
-      for (unsigned int i = 1; i <= n; ++i)
-        {
-          const Eigen::Vector3d trial    = gap + lifting.motion / n;
-          const double          length   = trial.norm();
-          const double          pressure = lifting.pressure * (n - i) / n;
-          const auto            slides   = [&] {
-            return std::max(0., length - mu * pressure / lifting.stiffness) /
-                   (1. + viscous);
-          };
-          if (pressure > 0.)
-            mu = per_pressure(pressure, slides());
-          const double way = slides();
-          if (way > 0.)
-            {
-              const Eigen::Vector3d next = (1. - way / length) * trial;
-              lost += 0.5 * lifting.stiffness * way / length *
-                      (gap + next).dot(trial);
-              gap = next;
-            }
-          else
-            gap = trial;
-          start = law.begin(law.advance(start, gap_at(pressure, way), way),
-                            start.phi_0,
-                            start.duration);
-        }
-      // what viscosity holds until it opens
-      return lost + 0.5 * lifting.stiffness * gap.squaredNorm();
+      // |gap + s motion| = (1 - s) limit, s from 0 to 1
+      const double a          = motion.squaredNorm() - limit * limit,
+                   b          = gap.dot(motion) + limit * limit,
+                   c          = std::min(0., gap.squaredNorm() - limit * limit),
+                   d          = b + std::sqrt(std::max(0., b * b - a * c));
+      const double          s = d > 0. ? std::min(1., -c / d) : 1.;
+      const Eigen::Vector3d then = gap + s * motion;
+      return 0.5 * stiffness * limit * (1. - s) * (1. - s) *
+             std::max(0., motion.dot(then.stableNormalized()) + limit);
     }
   } // namespace
 
@@ -256,15 +207,19 @@ namespace Debond
         // it is closed until the chuck has used up the penetration of both
         const double closed =
           (penetration + rises) / (penetration + rises + std::max(0., g_n));
-        start.duration *= closed;
-        lost = friction_until_open({(1. + compliance) * gap,
-                                    closed * tangential(motion.by_chuck) +
-                                      tangential(by_bodies) - compliance * gap,
-                                    p,
-                                    eps_t / (1. + compliance),
-                                    law.viscosity},
-                                   joint,
-                                   start);
+        const Eigen::Vector3d stretched = (1. + compliance) * gap,
+                              moved     = closed * tangential(motion.by_chuck) +
+                                      tangential(by_bodies) - compliance * gap;
+        // a bond breaks on the way, most of it while much is carried
+        const double third = (stretched + moved).norm() / 3.,
+                     weaker =
+                       joint.respond(start, point.accepted.normal_gap, third)
+                         .limit /
+                       eps_t;
+        lost = friction_until_open(stretched,
+                                   moved,
+                                   (1. + compliance) * std::min(limit, weaker),
+                                   eps_t / (1. + compliance));
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls
     // evenly to zero over the whole step

@@ -172,7 +172,7 @@ namespace Debond
       // along the face, which changes the distance to the axis
       const double n = 1. / parameters.interface.normal_penalty,
                    t = 1. / parameters.interface.tangential_stiffness(),
-                   p = summary.pressure, q = summary.max_traction,
+                   p = summary.pressure, q = summary.tangential,
                    couple =
                      interface.slave_side() == Side::implant ? p * (t - n) : 0.,
                    shift   = p > 0. ? 0.5 * q * q / p * (t * t / n - n) : 0.,

@@ -963,7 +963,8 @@ def ensemble():
             ('W_adh [N mm]', 'W_adh', 'Nmm', 1, 3), ('D_adh [N mm]', 'D_adh', 'Nmm', 1, 4),
             ('initial stiffness [N m/rad]', 'initial_stiffness', 'Nmm_per_rad', 1e-3, 2)):
         mean, low, high = ('%.*f' % (digits, factor * row['%s_%s_%s' % (column, what, unit)]) for what in ('mean', 'p05', 'p95'))
-        lines.append([name, mean, '%.2g' % (factor * row['%s_sd_%s' % (column, unit)]), low + ' to ' + high,
+        sd = factor * row['%s_sd_%s' % (column, unit)]
+        lines.append([name, mean, '%.2g' % sd if sd > 1e-6 * float(mean) else '0', low + ' to ' + high,  # but for rounding
                       '%.*f' % (digits, factor * uniform[column + '_' + unit])])
     return table(['200 implants, 55 % bonded', 'mean', 'standard deviation', '5 to 95 %', 'homogeneous 0.55'], lines)
 

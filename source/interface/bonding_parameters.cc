@@ -109,8 +109,9 @@ namespace Debond
               Allowed::whole_number(1, 65535).or_word_for("auto", "0"),
               "Grey level in the file that is white, phi_0 = 1, for Pattern = "
               "image: 4095 for 12 bits in a file of 16. `auto': the largest "
-              "that the format has, 255 or 65535; a dark one of 16 bits is "
-              "refused.");
+              "that the format has, 255 or 65535; refused of a picture of 16 "
+              "bits that stays below 16384, and of one of 8 bits with 0 and 1 "
+              "alone.");
     table.add(
       "Threshold",
       threshold,

@@ -183,6 +183,7 @@ namespace Debond
             area += point.JxW;
             summary.phi_mean += point.JxW * friction(point).phi;
             summary.pressure += point.JxW * trial.pressure;
+            summary.tangential += point.JxW * trial.tangential_traction.norm();
             *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
         if (status(point) != PointStatus::open)
@@ -214,6 +215,7 @@ namespace Debond
     // means over the area that faced the implant at the start
     summary.phi_mean /= area;
     summary.pressure /= area;
+    summary.tangential /= area;
     for (double *part : share_of)
       *part /= area;
     return summary;

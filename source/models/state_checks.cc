@@ -152,10 +152,15 @@ namespace Debond
                        "the faces of these cells cannot follow a stiff "
                        "interface, and pressure and stiffness are too large: "
                        "finer Cells, or a smaller Normal stiffness");
-      const double springs =
-        summary.pressure / system.R *
-        std::abs(1. / parameters.interface.normal_penalty -
-                 1. / parameters.interface.tangential_stiffness());
+      // of the couple, if the normal is not the implant's own, and of the shift
+      // along the face, which changes the distance to the axis
+      const double n = 1. / parameters.interface.normal_penalty,
+                   t = 1. / parameters.interface.tangential_stiffness(),
+                   p = summary.pressure, q = summary.tangential,
+                   couple =
+                     interface.slave_side() == Side::implant ? p * (t - n) : 0.,
+                   shift   = p > 0. ? 0.5 * q * q / p * (t * t / n - n) : 0.,
+                   springs = std::abs(couple + shift) / system.R;
       if (interface.is_curved() && springs > 0.01)
         note("springs that differ",
              Text() << "Normal and Tangential stiffness differ: on a curved "

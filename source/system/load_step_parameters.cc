@@ -82,8 +82,8 @@ namespace Debond
       Allowed::list(Allowed::whole_number(1, 10000000), 1, 0),
       "Number of planned steps in each phase: one number fewer than Times. "
       "With Adaptive they set the largest step. Finite elements with "
-      "friction divide a step that is to turn the chuck by more than 5 "
-      "degrees, to keep the work accurate.");
+      "friction divide a step that prescribes more than 5 degrees about z, "
+      "to keep the work accurate.");
     table.add("Adaptive",
               adaptive,
               Allowed::choice("false | true"),

@@ -23,8 +23,8 @@ namespace Debond
   {
     double phi_mean    = 0; ///< area mean over the implant's contact face
     double share_stick = 0, share_slip = 0, share_open = 0, share_pulled = 0;
-    double pressure = 0; ///< area mean [MPa]
-    double energy   = 0; ///< stored [N mm]
+    double pressure = 0, tangential = 0; ///< area means [MPa]
+    double energy = 0;                   ///< stored [N mm]
     /** Largest -dL/d g_s / (eps_t + eta / dt). */
     double max_softening = 0;
     /** The same where the law of a point falls steepest from the g_s on that

@@ -2,10 +2,14 @@
 #include <debond/interface/rigid_motion.h>
 #include <debond/interface/slip_problem.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 // Works of the points in a step, for the balances of energy.
 namespace Debond
@@ -14,24 +18,57 @@ namespace Debond
   {
     /** Per area, what friction takes of a point that is lifted until it opens
      *  [N/mm]. Its spring of the @p stiffness is stretched by @p gap, what
-     *  holds the spring moves by @p motion, and the @p limit of the gap falls
-     *  evenly to zero: the point sticks until both meet, and then follows the
-     *  limit. Exact while the gap keeps its direction. */
+     *  holds the spring moves by @p motion, and the limit of the gap, @p
+     *  limit_at a sliding distance, falls evenly to zero: the point sticks
+     *  until both meet. Then the gap follows the limit, and turns towards the
+     *  motion: the tangent of half the angle between them falls with the power
+     *  |motion| / limit of what is left. All of the motion's work and of what
+     *  was stored is lost. */
     double
-    friction_until_open(const Eigen::Vector3d &gap,
-                        const Eigen::Vector3d &motion,
-                        const double           limit,
-                        const double           stiffness)
+    friction_until_open(const Eigen::Vector3d               &gap,
+                        const Eigen::Vector3d               &motion,
+                        const std::function<double(double)> &limit_at,
+                        const double                         stiffness)
     {
-      // |gap + s motion| = (1 - s) limit, s from 0 to 1
-      const double a          = motion.squaredNorm() - limit * limit,
-                   b          = gap.dot(motion) + limit * limit,
-                   c          = std::min(0., gap.squaredNorm() - limit * limit),
-                   d          = b + std::sqrt(std::max(0., b * b - a * c));
-      const double          s = d > 0. ? std::min(1., -c / d) : 1.;
+      const double limit = limit_at(0.);
+      if (!(limit > 0.))
+        return 0.;
+      // |gap + s motion| = (1 - s) limit, from within: s from 0 to 1
+      const double a    = motion.squaredNorm() - limit * limit,
+                   b    = gap.dot(motion) + limit * limit,
+                   c    = std::min(0., gap.squaredNorm() - limit * limit),
+                   root = std::sqrt(std::max(0., b * b - a * c)),
+                   s    = std::clamp(b > 0. ? -c / (b + root) :
+                                  a > 0. ? (root - b) / a :
+                                           1.,
+                                  0.,
+                                  1.);
       const Eigen::Vector3d then = gap + s * motion;
-      return 0.5 * stiffness * limit * (1. - s) * (1. - s) *
-             std::max(0., motion.dot(then.stableNormalized()) + limit);
+      const double          way = motion.norm(), length = then.norm();
+      double                work = 0.5 * length * length;
+      if (way > 0. && length > 0.)
+        {
+          static const dealii::QGauss<1> quadrature(6);
+          const double cosine = motion.dot(then) / (way * length),
+                       square = // of the tangent
+                       (1. - cosine) / std::max(1. + cosine, 1e-12),
+                       power = 2. * way / limit;
+          // the gap turns while little of the way is done, if that is long
+          const std::array<double, 3> ends{{0., power / (power + 6.), 1.}};
+          for (unsigned int part = 0; part < 2; ++part)
+            for (unsigned int q = 0; q < quadrature.size(); ++q)
+              {
+                const double width = ends[part + 1] - ends[part],
+                             left = ends[part] + width * quadrature.point(q)[0],
+                             z    = square * std::pow(left, power),
+                             slip = (1. - left) * ((1. - s) * way + length) -
+                                    limit * std::log((1. + square) / (1. + z));
+                work += quadrature.weight(q) * width * left *
+                        std::pow(1. - s, 2) * way *
+                        limit_at(std::max(0., slip)) * (1. - z) / (1. + z);
+              }
+        }
+      return stiffness * work;
     }
   } // namespace
 
@@ -210,16 +247,14 @@ namespace Debond
         const Eigen::Vector3d stretched = (1. + compliance) * gap,
                               moved     = closed * tangential(motion.by_chuck) +
                                       tangential(by_bodies) - compliance * gap;
-        // a bond breaks on the way, most of it while much is carried
-        const double third = (stretched + moved).norm() / 3.,
-                     weaker =
-                       joint.respond(start, point.accepted.normal_gap, third)
-                         .limit /
-                       eps_t;
-        lost = friction_until_open(stretched,
-                                   moved,
-                                   (1. + compliance) * std::min(limit, weaker),
-                                   eps_t / (1. + compliance));
+        lost = friction_until_open(
+          stretched,
+          moved,
+          [&](const double slip) {
+            return (1. + compliance) / eps_t *
+                   joint.respond(start, point.accepted.normal_gap, slip).limit;
+          },
+          eps_t / (1. + compliance));
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls
     // evenly to zero over the whole step

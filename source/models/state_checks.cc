@@ -94,12 +94,12 @@ namespace Debond
       // A jump needs a law that falls faster than all springs in series let go.
       // How compliant bodies and machine are, compared with the interface, is
       // what they store; four times, as the pressure's part tells nothing.
-      else if (released_energy.may_hide_a_jump() &&
-               (summary.steepest_softening *
-                    (summary.energy + 4. * (system.bulk_energy() +
-                                            chuck.machine_energy(forces))) >
-                  summary.energy ||
-                summary.opening_softening > 0.))
+      // Against what opens a bond it is that over the square of the tractions.
+      const double stored = system.bulk_energy() + chuck.machine_energy(forces);
+      if (released <= 0. && released_energy.may_hide_a_jump() &&
+          (summary.steepest_softening * (summary.energy + 4. * stored) >
+             summary.energy ||
+           summary.opening_softening * 2. * stored > summary.squared_traction))
         note("steep fall",
              "in one step " + change +
                ": too much to tell a jump from a steep fall; smaller steps do");

@@ -33,10 +33,11 @@ namespace Debond
     double steepest_softening = 0;
     /** p, and -dL/d g_s of that point [MPa, MPa/mm]. */
     double softening_pressure = 0, softening_slope = 0;
-    /** How fast the pull of a full bond may fall as it opens, if a point has
-     *  opened beyond its strength in the step, and no viscosity resists that
+    /** How fast the pull of a bond may fall as it opens, if a point has opened
+     *  beyond its strength in the step, and no viscosity resists that
      *  [MPa/mm]. */
     double       opening_softening = 0;
+    double       squared_traction  = 0; ///< integral over the area [N^2/mm^2]
     double       max_penetration   = 0; ///< [mm]
     double       max_traction      = 0; ///< [MPa]
     unsigned int bonded_opened =

@@ -443,7 +443,7 @@ namespace Debond
         *std::find_if(steps.begin(), steps.end(), [&](const TorqueRow &row) {
           return row.time >= first.time;
         });
-      if (end_of_step.share_slip - before.share_slip > 0.1)
+      if (end_of_step.share_slip > 0.1)
         measures["remarks"].push_back(
           "initial_stiffness_Nmm_per_rad is too small: " +
           to_text(100. * end_of_step.share_slip, 2) +

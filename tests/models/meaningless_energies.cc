@@ -77,6 +77,11 @@ main()
   show("pressed while turning", {push + "0.0049 * t / 2"});
   show("turned from the first time on, in one step with the push",
        {rotation + "5 * t", "Load steps/Times=0, 2", "Load steps/Steps=2"});
+  show("sheared before it turns",
+       {"Load steps/Times=0, 1, 2, 3",
+        "Load steps/Steps=1, 10, 25",
+        "Chuck/Translation x/Value=0.02 * min(max(t - 1, 0), 1)",
+        rotation + "10 * max(t - 2, 0)"});
   show("the angle of another curve", {"Output/Friction energy from angle=2"});
   show("rows that stand still between the others",
        {rotation + "if(t > 1, floor((t - 1) * 25 + 1e-9) / 2.5, 0)"});

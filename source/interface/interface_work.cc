@@ -22,12 +22,13 @@ namespace Debond
      *  limit_at a sliding distance, falls evenly to zero: the point sticks
      *  until both meet. Then the gap follows the limit, and turns towards the
      *  motion: the tangent of half the angle between them falls with the power
-     *  |motion| / limit of what is left. All of the motion's work and of what
-     *  was stored is lost. */
+     *  |motion| / limit of what is left; viscosity makes it longer by @p lag.
+     *  All of the motion's work and of what was stored is lost. */
     double
     friction_until_open(const Eigen::Vector3d               &gap,
                         const Eigen::Vector3d               &motion,
                         const std::function<double(double)> &limit_at,
+                        const double                         lag,
                         const double                         stiffness)
     {
       const double limit = limit_at(0.);
@@ -63,9 +64,9 @@ namespace Debond
                              z    = square * std::pow(left, power),
                              slip = (1. - left) * ((1. - s) * way + length) -
                                     limit * std::log((1. + square) / (1. + z));
-                work += quadrature.weight(q) * width * left *
-                        std::pow(1. - s, 2) * way *
-                        limit_at(std::max(0., slip)) * (1. - z) / (1. + z);
+                work += quadrature.weight(q) * width * (1. - s) * way *
+                        (left * (1. - s) * limit_at(std::max(0., slip)) + lag) *
+                        (1. - z) / (1. + z);
               }
         }
       return stiffness * work;
@@ -247,14 +248,24 @@ namespace Debond
         const Eigen::Vector3d stretched = (1. + compliance) * gap,
                               moved     = closed * tangential(motion.by_chuck) +
                                       tangential(by_bodies) - compliance * gap;
-        lost = friction_until_open(
-          stretched,
-          moved,
-          [&](const double slip) {
-            return (1. + compliance) / eps_t *
-                   joint.respond(start, point.accepted.normal_gap, slip).limit;
-          },
-          eps_t / (1. + compliance));
+        // it slides evenly, as friction that depends on the speed asks
+        const double way      = (stretched + moved).norm();
+        const auto   limit_at = [&](const double slip) {
+          const double     part = way > 0. ? std::max(1e-3, slip / way) : 1.;
+          const PointStart from = joint.begin(start.history,
+                                              start.phi_0,
+                                              part * closed * start.duration);
+          return (1. + compliance) / eps_t *
+                 joint.respond(from, point.accepted.normal_gap, part * way)
+                   .limit;
+        };
+        const double viscous = start.duration > 0. ?
+                                 law.viscosity / (closed * start.duration) *
+                                   (1. + compliance) / eps_t :
+                                 0.;
+        const double lag     = viscous / (1. + viscous) * way;
+        lost                 = friction_until_open(
+          stretched, moved, limit_at, lag, eps_t / (1. + compliance));
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls
     // evenly to zero over the whole step

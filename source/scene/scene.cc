@@ -230,21 +230,20 @@ namespace Debond
     /** What is solved, in lines. Files are named without their directories,
      *  which may be others on another machine: their content counts. */
     std::vector<std::string>
-    lines_to_compare(Scene scene)
+    lines_to_compare(const Scene &scene)
     {
       std::vector<std::string> lines;
-      for (SceneEntry &entry : scene.completed_entries())
-        {
-          for (const std::string &file : files_of(scene))
-            boost::replace_all(entry.value,
-                               file,
-                               std::filesystem::path(file).filename().string());
-          lines.push_back(entry.full_name() + " = '" + entry.value + "'");
-        }
+      for (const SceneEntry &entry : scene.completed_entries())
+        lines.push_back(entry.full_name() + " = '" + entry.value + "'");
       Classic<std::istringstream> contents(identities(scene));
       for (std::string line; std::getline(contents, line);)
         if (line.rfind("# ", 0) == 0)
           lines.push_back("the file " + line.substr(2));
+      for (std::string &line : lines)
+        for (const std::string &file : files_of(scene))
+          boost::replace_all(line,
+                             file,
+                             std::filesystem::path(file).filename().string());
       // a program may give motions that no entry tells of
       for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
         {

@@ -4,7 +4,6 @@
 #include "module.h"
 
 #include <debond/input/expression_parser.h>
-#include <debond/input/parameter_loop.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/varying_curve.h>
 #include <debond/output/curve_comparison.h>
@@ -160,24 +159,6 @@ namespace
 
 
 
-  /** Of a study or of the experiments of a calibration: entries, and full
-   *  names of those that hold several values. */
-  std::vector<std::pair<std::vector<SceneEntry>, std::vector<std::string>>>
-  variants(const std::vector<SceneEntry> &entries)
-  {
-    std::vector<std::pair<std::vector<SceneEntry>, std::vector<std::string>>>
-      result;
-    for (const StudyVariant &variant : study_variants(entries))
-      {
-        result.emplace_back(variant.entries, std::vector<std::string>());
-        for (const std::size_t i : variant.varied)
-          result.back().second.push_back(variant.entries[i].full_name());
-      }
-    return result;
-  }
-
-
-
   /** Rows and summary. */
   std::pair<py::dict, std::string>
   closed_form(const Scene &scene, const Team &team)
@@ -266,7 +247,6 @@ namespace
                py::arg("place") = "entries");
     module.def("with_values", with_values);
     module.def("text_of", scene_text);
-    module.def("variants", variants);
     module.def("expression",
                [](const std::string &names, const std::string &text)
                  -> Expression { return read_expression(names, text, 0.); });
@@ -290,7 +270,7 @@ namespace
                              [](const Scene &s) {
                                Texts values;
                                for (const SceneEntry &entry :
-                                    read_scene_text(s.completed_parameters, ""))
+                                    s.completed_entries())
                                  values[entry.full_name()] = entry.value;
                                return values;
                              })
@@ -415,19 +395,9 @@ PYBIND11_MODULE(_debond, module)
   bind_scenes(module);
   bind_curves(module);
   bind_simulation(module);
+  bind_studies(module);
   module.def("unit_of", [](const std::string &name) {
-    struct Entries // of all of them, made once
-    {
-      Entries()
-      {
-        scene.declare(table);
-      }
-
-      Scene      scene;
-      EntryTable table;
-    };
-    static const Entries entries;
-    return entries.table.unit_of(name);
+    return default_entries().unit_of(name);
   });
   module.def("closed_form", closed_form);
   module.def("provenance", [] {

@@ -93,4 +93,7 @@ texts_of(const std::vector<Warning> &warnings);
 /** The classes of a simulation that goes on row by row. */
 void
 bind_simulation(py::module_ &module);
+/** What studies need. */
+void
+bind_studies(py::module_ &module);
 #endif

@@ -1,7 +1,5 @@
 #include <debond/campaigns/run_scene.h>
-#include <debond/campaigns/study.h>
 #include <debond/input/input_file.h>
-#include <debond/input/parameter_loop.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/resumed_run.h>
 #include <debond/output/reference_comparison.h>
@@ -280,41 +278,18 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
 
   // <h3>What can be run</h3>
   //
-  // A study is a scene whose entries hold several values. Its variants run as
-  // processes of their own, several at a time. They share the processors: if
-  // nothing else is asked for each gets its part of the threads.
-  //
-  // Processes, not threads: a variant that fails, or for which the memory does
-  // not suffice, leaves the others alone. Threads within a run gain less: what
-  // takes longest, the triangular solves, waits for the memory.
-  void
-  act_on_study(const std::vector<SceneEntry> &entries,
-               const Arguments               &arguments)
+  // Studies, fits, comparisons and pages are written in Python, where processes
+  // and statistics are at home; what they need of the program is its library,
+  // as a module. A study is a scene whose entries hold several values, {{a|b}};
+  // a calibration says so, and may have several values for its experiments.
+  bool
+  is_study(const std::vector<SceneEntry> &entries)
   {
-    if (Ranks::number() > 1)
-      refuse_usage(
-        "the variants of a study are processes of one machine: leave "
-        "out mpirun, or deal them out to many machines in Python "
-        "(debond.run_many, doc/howto/python.md)");
-    // All variants are read before the first one runs, so that a mistake in the
-    // last of them shows at once.
-    if (arguments.check)
-      return check_study(entries, arguments.scene_file, std::cout);
-    // With as many jobs as processors each variant gets one thread.
-    const unsigned int n_jobs = or_processors(arguments.n_jobs);
-    set_number_of_threads(arguments.n_threads > 0 ?
-                            arguments.n_threads :
-                            std::max(1U, or_processors(0) / n_jobs));
-    // From here on a signal only asks to stop. Variants that are done are kept.
-    catch_interruptions();
-    run_study(
-      entries, arguments.scene_file, n_jobs, arguments.force, std::cout);
+    return std::any_of(entries.begin(), entries.end(), [](const auto &entry) {
+      return entry.value.find("{{") != std::string::npos;
+    });
   }
 
-
-
-  // Fits, comparisons and pages are written in Python, where statistics are at
-  // home; what they need of the program is its library, as a module.
   bool
   is_calibration(const std::vector<SceneEntry> &entries)
   {
@@ -323,19 +298,23 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     });
   }
 
+  // The command of Python with the words that this program was given; a number
+  // that was not said it chooses itself.
   [[noreturn]] void
-  become_calibration(const Arguments &arguments)
+  become(const std::string &command, const Arguments &arguments)
   {
-    std::vector<std::string> words{arguments.scene_file,
-                                   "--threads=" + std::to_string(or_processors(
-                                                    arguments.n_threads))};
+    std::vector<std::string> words{arguments.scene_file};
+    if (arguments.n_threads > 0)
+      words.push_back("--threads=" + std::to_string(arguments.n_threads));
+    if (arguments.n_jobs > 0 && command == "study")
+      words.push_back("--jobs=" + std::to_string(arguments.n_jobs));
     for (const std::string &text : arguments.overrides)
       words.push_back("--set=" + text);
     if (arguments.force)
       words.push_back("--force");
     if (arguments.check)
       words.push_back("--check");
-    Laboratory::become("calibrate", words);
+    Laboratory::become(command, words);
   }
 
 
@@ -462,16 +441,20 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     const std::vector<SceneEntry> entries =
       with_overrides(read_scene_file(arguments.scene_file),
                      arguments.overrides);
-    // A calibration's entries hold <<unknowns>>, and {{a|b}} where there are
-    // several experiments.
-    if (Ranks::number() > 1 && is_calibration(entries))
-      refuse_usage("a calibration runs in one process: leave out mpirun");
-    if (is_calibration(entries) && !arguments.print_parameters)
-      become_calibration(arguments);
-    // A study's entries hold {{a|b}}: each of its variants is a scene, they
-    // themselves are none.
-    if (!varied_entries(entries).empty() && !arguments.print_parameters)
-      return act_on_study(entries, arguments);
+    // A calibration's entries hold <<unknowns>>, a study's {{a|b}}: each of its
+    // variants is a scene, they themselves are none.
+    if (!arguments.print_parameters)
+      for (const auto &[command, is_one] :
+           {std::make_pair("calibrate", is_calibration(entries)),
+            std::make_pair("study", is_study(entries))})
+        if (is_one)
+          {
+            if (Ranks::number() > 1)
+              refuse_usage("studies and calibrations are processes of one "
+                           "machine: leave out mpirun, or deal variants out "
+                           "to many machines in Python (doc/howto/cluster.md)");
+            become(command, arguments);
+          }
 
     // Here text becomes a plain value, with all numbers in mm, N and MPa. What
     // is not allowed, or makes no sense together, is refused with its place.

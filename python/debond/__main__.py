@@ -7,13 +7,14 @@ measured FILE         read a table of a laboratory, write it as plain CSV
 nifti FILE.nii FILE.mha   write a NIfTI image as a MetaImage, which scenes read
 page DIR              write report.html of the results in a directory
 specimens SCENE TABLE fit many specimens
+study SCENE.prm       run all variants of a scene whose entries hold several values
 """
 
 import importlib
 import os
 import sys
 
-from .errors import InputError, RunError
+from .errors import InputError, Interrupted, RunError
 from .files import say
 
 PROCESSORS = os.cpu_count()
@@ -29,6 +30,8 @@ COMMANDS = {
     "nifti": ("FILE.nii FILE.mha, an image to read and one to write", 2, {}),
     "page": ("DIR, a directory of results", 1, {}),
     "specimens": ("TEMPLATE.prm TABLE [--out DIR] [--jobs N]", 2, {"--out": "", "--jobs": PROCESSORS}),
+    "study": ("SCENE.prm [--set ENTRY=VALUE]... [--jobs N] [--threads N] [--force] [--check]", 1,
+              {"--set": [], "--jobs": PROCESSORS, "--threads": 0, "--force": False, "--check": False}),
 }
 PACKAGES = {"_debond": "build debond with pybind11, apt install pybind11-dev python3-dev"}
 
@@ -74,6 +77,9 @@ def main(words) -> int:
     except RunError as error:
         say(error, sys.stderr)
         return 2
+    except Interrupted as error:
+        say(error, sys.stderr)
+        return 128 + error.signal
     except KeyboardInterrupt:
         say("interrupted: the same command goes on, without --force", sys.stderr)
         return 130

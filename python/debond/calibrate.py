@@ -14,7 +14,7 @@ from . import intervals
 from .errors import RunError
 from .executors import check_workers
 from .experiment import RIG
-from .files import csv_text, say, write_whole
+from .files import csv_text, heeding, say, write_whole
 from .fit import fit_problem, problem_of
 from .measurement import rows_in_words, unit_doubt
 from .page import write_page_if_possible
@@ -192,6 +192,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     scene = scene if isinstance(scene, Scene) else Scene(scene)
     problem = problem_of(scene)
     directory = problem.values["Output / Directory"]
+    say = heeding(problem.values["Output / Console"], say)
     lock = _debond.claim_directory(problem.experiments[0].scene, _identity(scene, problem), force)
     log = os.path.join(directory, "evaluations.jsonl")
     if force and os.path.exists(log):

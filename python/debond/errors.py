@@ -38,6 +38,14 @@ class RunError(RuntimeError):
     """A run that could not be finished; the text says where and why. Rows before are kept by Simulation."""
 
 
+class Interrupted(RuntimeError):
+    """A signal has ended what was at work; the text says how it goes on."""
+
+    def __init__(self, signal: int, text: str):
+        super().__init__(text)
+        self.signal = signal
+
+
 def shortened(text: str) -> str:
     """What a user has written as it is shown in messages: the end of a very long text is left out."""
     return text if len(text) <= 300 else text[:300] + "..."

@@ -19,6 +19,11 @@ def say(text, file=None, end="\n") -> None:
         os.close(nowhere)
 
 
+def heeding(console, say):
+    """What says texts to `say`, warnings alone if Output / Console, whose value is given, is quiet."""
+    return say if console != "quiet" else lambda text: say(text) if text.startswith("warning") else None
+
+
 def write_whole(path, text: str) -> None:
     """Writes a text file whole or not at all, also if several processes write it or the machine stops. Raises RunError."""
     path = os.fspath(path)

@@ -26,6 +26,7 @@ from .measurement import stated_noise
 from .problem import Optimum, Problem, Runs
 from .scene import Scene
 from .unknowns import Unknowns
+from .variants import variants_of
 
 FOLLOWED, FOLLOWED_SLOWLY = 5, 2  # of the starts: runs take longer than closed forms
 CORRELATED = 0.99  # unknowns: more is said
@@ -40,12 +41,12 @@ def problem_of(scene, runs=None):
     entries = scene._entries
     if not any(entry.name == "Task" and entry.value == "calibrate" for entry in entries):
         entries = _debond.changed(entries, ["Task=calibrate"])
-    variants = _debond.variants(entries)
+    variants = variants_of(entries)
     for entry in entries:
         if entry.name == "Output / Directory" and "{{" in entry.value:
             entry.refuse("a calibration has one directory: expected one value")
     unknowns = Unknowns(variants)
-    problem = Problem(unknowns, [Experiment(unknowns, i, own, scene._name) for i, (own, _) in enumerate(variants)], runs or Runs())
+    problem = Problem(unknowns, [Experiment(unknowns, i, own.entries, scene._name) for i, own in enumerate(variants)], runs or Runs())
     _check(problem)
     return problem
 

@@ -42,11 +42,12 @@ def write_page(directory):
 
 
 def write_page_if_possible(directory):
-    """The same at the end of a run, which does not fail because Jinja2 is missing."""
+    """The same at the end of a run, which does not fail because Jinja2 is missing. Returns whether there is a page."""
     try:
         write_page(directory)
     except ImportError:
-        pass
+        return False
+    return True
 
 
 def main(directory, options):

@@ -23,13 +23,14 @@ def short_name(entry, entries):
     return entry
 
 
-def names_of(entries, values):
-    """Brief names of variants, and whether they have only what differs from the first variant: where four or more entries
-    vary, or none changes all of them."""
+def names_of(entries, values, name_of=None, separator=", "):
+    """Names of variants, brief ones if it is not said how an entry is called, and whether they have only what differs from the
+    first variant: where four or more entries vary, or none changes all of them."""
+    name_of = name_of or (lambda entry: short_name(entry, entries))
     changes = max((sum(a != b for a, b in zip(row, values[0])) for row in values), default=0)
     only_changes = changes > 0 and (len(entries) >= 4 or changes < len(entries))
-    return [", ".join(f"{short_name(name, entries)} = {value}" for name, value, first in zip(entries, row, values[0])
-                      if not only_changes or value != first) or "first values" * bool(entries) for row in values], only_changes
+    return [separator.join(f"{name_of(name)} = {value}" for name, value, first in zip(entries, row, values[0])
+                           if not only_changes or value != first) or "first values" * bool(entries) for row in values], only_changes
 
 
 def chosen(items):

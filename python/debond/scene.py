@@ -14,6 +14,7 @@ import _debond
 
 from .errors import SceneError, expect, path_of
 from .page import write_page_if_possible
+from .variants import variants_of
 
 __version__ = _debond.version
 
@@ -175,9 +176,9 @@ class Scene:
     def variants(self) -> List["Scene"]:
         """Of a study, whose entries hold several values {{a|b}}: the scenes of its variants, for run_many()."""
         result = []
-        for entries, _ in _debond.variants(self._entries):
+        for one in variants_of(self._entries):
             variant = Scene()
-            variant._entries, variant._name, variant._tables = entries, self._name, self._tables
+            variant._entries, variant._name, variant._tables = one.entries, self._name, self._tables
             result.append(variant)
         return result
 

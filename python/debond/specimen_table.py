@@ -20,6 +20,7 @@ from .errors import InputError, shortened
 from .layout import filled, split, value_of, with_plain_marks
 from .measured import texts_of
 from .unknowns import Unknowns
+from .variants import Variant, variants_of
 
 OWN = ("specimen", "curve", "group")
 ALL = "all"  # what the mean of all groups is called
@@ -116,8 +117,8 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
 
 def _scene_of(template, changes=()):
     """The scene with unknowns at their starts, without a measured curve. Raises SceneError."""
-    entries, _ = _debond.variants(_debond.changed(template, [*changes, "Output/Reference curve=none", "Task=calibrate"]))[0]
-    unknowns = Unknowns([(entries, [])])
+    entries = variants_of(_debond.changed(template, [*changes, "Output/Reference curve=none", "Task=calibrate"]))[0].entries
+    unknowns = Unknowns([Variant(entries, {})])
     if not unknowns.list:
         raise InputError("the template has no unknowns: write <<START in LOWER..UPPER>> in the place of numbers that are to be "
                          "found")

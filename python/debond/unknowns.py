@@ -64,14 +64,14 @@ class Unknowns:
     its own."""
 
     def __init__(self, experiments):
-        """`experiments`: of each its entries and the full names of those that differ (_debond.variants). Raises SceneError."""
+        """`experiments`: of each its Variant, by which they differ. Raises SceneError."""
         self.list = []
         self._named = {}  # index -> name
         self._n_experiments = len(experiments)
         self._varied = []  # of each experiment: (entry, texts, marks)
-        for number, (entries, own) in enumerate(experiments):
-            self._varied.append([self._read_entry(number, entry, entry.name not in own)
-                                 for entry in entries if "<<" in entry.value])
+        for number, own in enumerate(experiments):
+            self._varied.append([self._read_entry(number, entry, entry.name not in own.values)
+                                 for entry in own.entries if "<<" in entry.value])
         names = ", ".join(self._named.values())
         for entry, _, marks in (one for varied in self._varied for one in varied):
             for i, mark in enumerate(marks):

@@ -39,6 +39,7 @@ namespace Debond
     const std::string refusal = allowed.refusal(value);
     if (!refusal.empty())
       entry.refuse(refusal);
+    numbers[entry.full_name()] = rows.size();
     rows.push_back({entry, allowed});
     prm.declare_entry(name,
                       value,
@@ -53,10 +54,8 @@ namespace Debond
   void
   EntryTable::set(const SceneEntry &entry)
   {
-    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row &r) {
-      return r.entry.full_name() == entry.full_name();
-    });
-    if (row == rows.end())
+    const auto number = numbers.find(entry.full_name());
+    if (number == numbers.end())
       {
         const std::string special =
           remark_on_special_character(entry.full_name());
@@ -72,7 +71,8 @@ namespace Debond
                    "calibrate: expected a value here");
     if (entry.value.find("{{") != std::string::npos)
       entry.refuse("several values make a study: expected one value here");
-    const std::string refusal = row->allowed.refusal(entry.value);
+    Row              &row     = rows[number->second];
+    const std::string refusal = row.allowed.refusal(entry.value);
     if (!refusal.empty())
       entry.refuse(refusal + (entry.value.find('{') == std::string::npos ?
                                 "" :
@@ -81,6 +81,7 @@ namespace Debond
     for (const std::string &subsection : entry.subsections)
       prm.enter_subsection(subsection);
     prm.set(entry.name, entry.value);
+    row.entry.value = entry.value;
     for (std::size_t i = 0; i < entry.subsections.size(); ++i)
       prm.leave_subsection();
   }
@@ -144,20 +145,47 @@ namespace Debond
 
 
 
+  const EntryTable::Row *
+  EntryTable::row_of(const std::string &full_name) const
+  {
+    const auto number = numbers.find(full_name);
+    return number == numbers.end() ? nullptr : &rows[number->second];
+  }
+
+
+
   // Words of what is allowed end with it: "a number > 0 [mm]".
   std::string
   EntryTable::unit_of(const std::string &full_name) const
   {
+    const Row *const row = row_of(full_name);
+    if (row == nullptr)
+      return "";
+    const std::string &words = row->allowed.description;
+    const auto         begin = words.rfind('[');
+    return begin == std::string::npos || words.back() != ']' ?
+             "" :
+             words.substr(begin + 1, words.size() - begin - 2);
+  }
+
+
+
+  bool
+  EntryTable::has(const SceneEntry &entry) const
+  {
+    const Row *const row = row_of(entry.full_name());
+    return row != nullptr && row->entry.value == entry.value;
+  }
+
+
+
+  std::vector<SceneEntry>
+  EntryTable::entries() const
+  {
+    std::vector<SceneEntry> result;
     for (const Row &row : rows)
-      if (row.entry.full_name() == full_name)
-        {
-          const std::string &words = row.allowed.description;
-          const auto         begin = words.rfind('[');
-          return begin == std::string::npos || words.back() != ']' ?
-                   "" :
-                   words.substr(begin + 1, words.size() - begin - 2);
-        }
-    return "";
+      result.push_back(row.entry);
+    return result;
   }
 
 

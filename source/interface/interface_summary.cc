@@ -1,4 +1,6 @@
+#include <debond/bulk/bulk_space.h>
 #include <debond/interface/contact_interface.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <array>
@@ -128,6 +130,19 @@ namespace Debond
 
 
 
+  bool
+  ContactInterface::has_opened_beyond_strength(const SlavePoint &point) const
+  {
+    const InterfaceLaw &joint = *law.joint;
+    if (joint.is_cohesive())
+      return point.trial.state.damage > point.accepted.damage;
+    return joint.pulls() && point.phi_0 > 0. &&
+           point.trial.state.status != PointStatus::open &&
+           joint.opened(point.trial.state) >
+             std::max(joint.opened(point.accepted), joint.tension().gap);
+  }
+
+
   // What a step is judged by. Areas count where the implant is faced, forces
   // and energies everywhere. The local problem of a sliding point has one
   // solution while |dmu/dg_s| p < eps_t + eta/dt: the slope is asked for where
@@ -162,7 +177,8 @@ namespace Debond
           summary.energy += point.JxW * share->energy;
         if (tension.strength > 0. && tension.viscosity == 0. &&
             has_opened_beyond_strength(point))
-          summary.opening_softening = tension.softening;
+          summary.opening_softening = std::max(summary.opening_softening,
+                                               point.phi_0 * tension.softening);
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of
@@ -170,7 +186,11 @@ namespace Debond
             area += point.JxW;
             summary.phi_mean += point.JxW * friction(point).phi;
             summary.pressure += point.JxW * trial.pressure;
-            summary.tangential += point.JxW * trial.tangential_traction.norm();
+            const PointTraction carried = traction(point);
+            summary.tangential += point.JxW * carried.tangential.norm();
+            summary.squared_traction +=
+              point.JxW * (std::pow(carried.pressure, 2) +
+                           carried.tangential.squaredNorm());
             *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
         if (status(point) != PointStatus::open)

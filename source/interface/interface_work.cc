@@ -2,85 +2,74 @@
 #include <debond/interface/rigid_motion.h>
 #include <debond/interface/slip_problem.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 // Works of the points in a step, for the balances of energy.
 namespace Debond
 {
   namespace
   {
-    /** A point that is lifted, until it opens. */
-    struct Lifting
-    {
-      Eigen::Vector3d gap;       ///< of its tangential spring [mm]
-      Eigen::Vector3d motion;    ///< of what holds that spring [mm]
-      double          pressure;  ///< at the beginning; falls evenly to 0 [MPa]
-      double          stiffness; ///< of the spring [MPa/mm]
-      double          viscosity; ///< [MPa per speed]
-    };
-
-
-
-    // The law of the interface in small parts of the way: the spring follows
-    // the motion, and slides by what friction does not hold any more. What is
-    // dissipated is a trapezoid as that of a step [N/mm]:
-    // doc/explanation/contact.md, Energies.
+    /** Per area, what friction takes of a point that is lifted until it opens
+     *  [N/mm]. Its spring of the @p stiffness is stretched by @p gap, what
+     *  holds the spring moves by @p motion, and the limit of the gap, @p
+     *  limit_at a sliding distance, falls evenly to zero: the point sticks
+     *  until both meet. Then the gap follows the limit, and turns towards the
+     *  motion: the tangent of half the angle between them falls with the power
+     *  |motion| / limit of what is left; viscosity makes it longer by @p lag.
+     *  All of the motion's work and of what was stored is lost. */
     double
-    friction_until_open(const Lifting      &lifting,
-                        const InterfaceLaw &law,
-                        PointStart          start)
+    friction_until_open(const Eigen::Vector3d               &gap,
+                        const Eigen::Vector3d               &motion,
+                        const std::function<double(double)> &limit_at,
+                        const double                         lag,
+                        const double                         stiffness)
     {
-      constexpr unsigned int n = 200;
-      start = law.begin(start.history, start.phi_0, start.duration / n);
-      // each distance is held back by this much of itself
-      const double viscous =
-        start.duration > 0. ?
-          lifting.viscosity / start.duration / lifting.stiffness :
-          0.;
-      // the gap at which that much is carried
-      const auto gap_at = [&](const double pressure, const double distance) {
-        return (law.pulls() ? 0. : law.reach(start, distance)) -
-               pressure / law.stiffness;
-      };
-      const auto per_pressure = [&](const double pressure,
-                                    const double distance) {
-        return std::max(
-          0.,
-          law.respond(start, gap_at(pressure, distance), distance).limit /
-            pressure);
-      };
-      Eigen::Vector3d gap = lifting.gap;
-      double          mu = per_pressure(lifting.pressure, 0.), lost = 0.;
-      for (unsigned int i = 1; i <= n; ++i)
+      const double limit = limit_at(0.);
+      if (!(limit > 0.))
+        return 0.;
+      // |gap + s motion| = (1 - s) limit, from within: s from 0 to 1
+      const double a    = motion.squaredNorm() - limit * limit,
+                   b    = gap.dot(motion) + limit * limit,
+                   c    = std::min(0., gap.squaredNorm() - limit * limit),
+                   root = std::sqrt(std::max(0., b * b - a * c)),
+                   s    = std::clamp(b > 0. ? -c / (b + root) :
+                                  a > 0. ? (root - b) / a :
+                                           1.,
+                                  0.,
+                                  1.);
+      const Eigen::Vector3d then = gap + s * motion;
+      const double          way = motion.norm(), length = then.norm();
+      double                work = 0.5 * length * length;
+      if (way > 0. && length > 0.)
         {
-          const Eigen::Vector3d trial    = gap + lifting.motion / n;
-          const double          length   = trial.norm();
-          const double          pressure = lifting.pressure * (n - i) / n;
-          const auto            slides   = [&] {
-            return std::max(0., length - mu * pressure / lifting.stiffness) /
-                   (1. + viscous);
-          };
-          if (pressure > 0.)
-            mu = per_pressure(pressure, slides());
-          const double way = slides();
-          if (way > 0.)
-            {
-              const Eigen::Vector3d next = (1. - way / length) * trial;
-              lost += 0.5 * lifting.stiffness * way / length *
-                      (gap + next).dot(trial);
-              gap = next;
-            }
-          else
-            gap = trial;
-          start = law.begin(law.advance(start, gap_at(pressure, way), way),
-                            start.phi_0,
-                            start.duration);
+          static const dealii::QGauss<1> quadrature(6);
+          const double cosine = motion.dot(then) / (way * length),
+                       square = // of the tangent
+                       (1. - cosine) / std::max(1. + cosine, 1e-12),
+                       power = 2. * way / limit;
+          // the gap turns while little of the way is done, if that is long
+          const std::array<double, 3> ends{{0., power / (power + 6.), 1.}};
+          for (unsigned int part = 0; part < 2; ++part)
+            for (unsigned int q = 0; q < quadrature.size(); ++q)
+              {
+                const double width = ends[part + 1] - ends[part],
+                             left = ends[part] + width * quadrature.point(q)[0],
+                             z    = square * std::pow(left, power),
+                             slip = (1. - left) * ((1. - s) * way + length) -
+                                    limit * std::log((1. + square) / (1. + z));
+                work += quadrature.weight(q) * width * (1. - s) * way *
+                        (left * (1. - s) * limit_at(std::max(0., slip)) + lag) *
+                        (1. - z) / (1. + z);
+              }
         }
-      // what viscosity holds until it opens
-      return lost + 0.5 * lifting.stiffness * gap.squaredNorm();
+      return stiffness * work;
     }
   } // namespace
 
@@ -256,15 +245,27 @@ namespace Debond
         // it is closed until the chuck has used up the penetration of both
         const double closed =
           (penetration + rises) / (penetration + rises + std::max(0., g_n));
-        start.duration *= closed;
-        lost = friction_until_open({(1. + compliance) * gap,
-                                    closed * tangential(motion.by_chuck) +
-                                      tangential(by_bodies) - compliance * gap,
-                                    p,
-                                    eps_t / (1. + compliance),
-                                    law.viscosity},
-                                   joint,
-                                   start);
+        const Eigen::Vector3d stretched = (1. + compliance) * gap,
+                              moved     = closed * tangential(motion.by_chuck) +
+                                      tangential(by_bodies) - compliance * gap;
+        // it slides evenly, as friction that depends on the speed asks
+        const double way      = (stretched + moved).norm();
+        const auto   limit_at = [&](const double slip) {
+          const double     part = way > 0. ? std::max(1e-3, slip / way) : 1.;
+          const PointStart from = joint.begin(start.history,
+                                              start.phi_0,
+                                              part * closed * start.duration);
+          return (1. + compliance) / eps_t *
+                 joint.respond(from, point.accepted.normal_gap, part * way)
+                   .limit;
+        };
+        const double viscous = start.duration > 0. ?
+                                 law.viscosity / (closed * start.duration) *
+                                   (1. + compliance) / eps_t :
+                                 0.;
+        const double lag     = viscous / (1. + viscous) * way;
+        lost                 = friction_until_open(
+          stretched, moved, limit_at, lag, eps_t / (1. + compliance));
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls
     // evenly to zero over the whole step

@@ -128,17 +128,14 @@ namespace Debond
     nlohmann::ordered_json
     changed_entries(const Scene &scene)
     {
-      Scene      defaults;
-      EntryTable table;
-      defaults.declare(table);
-      nlohmann::ordered_json list = nlohmann::ordered_json::array();
-      for (const SceneEntry &entry :
-           read_scene_text(scene.completed_parameters, ""))
+      const EntryTable      &defaults = default_entries();
+      nlohmann::ordered_json list     = nlohmann::ordered_json::array();
+      for (const SceneEntry &entry : scene.completed_entries())
         if (const std::string name = entry.full_name();
-            name != "Output / Directory" && !is_default(entry))
+            name != "Output / Directory" && !defaults.has(entry))
           list.push_back({{"entry", name},
                           {"value", entry.value},
-                          {"unit", table.unit_of(name)}});
+                          {"unit", defaults.unit_of(name)}});
       return list;
     }
   } // namespace

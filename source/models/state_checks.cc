@@ -63,7 +63,6 @@ namespace Debond
                    const CoupledSystem    &system,
                    const InterfaceSummary &summary,
                    const Chuck::Vector6   &forces_before,
-                   const double            compliance,
                    ReleasedEnergy         &released_energy,
                    const Note             &note)
     {
@@ -79,21 +78,6 @@ namespace Debond
                  system.press_fit.work()});
       const std::string change =
         describe_change(forces_before, forces, system.R);
-      const bool opens_unstably =
-        summary.opening_softening > 0. &&
-        !(summary.opening_softening * compliance < 1.);
-      if (opens_unstably && !parameters.load_steps.follow_path)
-        note("opening bond",
-             Text() << "as it opens the bond may soften by "
-                    << to_text(summary.opening_softening, 3) << " MPa/mm, and "
-                    << (std::isnan(compliance) ?
-                          "the stiffness of a bone that is not condensed is "
-                          "unknown" :
-                          "bodies and machine hold with no more than " +
-                            to_text(1. / compliance, 3) + " MPa/mm")
-                    << ": there may be more than one state of equilibrium, and "
-                       "the load may not be followed through the fall. "
-                    << advice(parameters, true));
       if (released_energy.missing() > 0. && system.interface.get_law().pulls())
         note("step over equilibrium",
              Text() << "in one step " << change << ", and the law dissipates "
@@ -110,12 +94,12 @@ namespace Debond
       // A jump needs a law that falls faster than all springs in series let go.
       // How compliant bodies and machine are, compared with the interface, is
       // what they store; four times, as the pressure's part tells nothing.
-      else if (released_energy.may_hide_a_jump() &&
-               (summary.steepest_softening *
-                    (summary.energy + 4. * (system.bulk_energy() +
-                                            chuck.machine_energy(forces))) >
-                  summary.energy ||
-                opens_unstably))
+      // Against what opens a bond it is that over the square of the tractions.
+      const double stored = system.bulk_energy() + chuck.machine_energy(forces);
+      if (released <= 0. && released_energy.may_hide_a_jump() &&
+          (summary.steepest_softening * (summary.energy + 4. * stored) >
+             summary.energy ||
+           summary.opening_softening * 2. * stored > summary.squared_traction))
         note("steep fall",
              "in one step " + change +
                ": too much to tell a jump from a steep fall; smaller steps do");
@@ -333,15 +317,8 @@ namespace Debond
       system.bone.n_unknowns() + system.implant.n_unknowns() == 0;
     if (!has_one_state && !parameters.interface.explicit_friction)
       {
-        if (summary.opening_softening > 0. && compliance < 0.)
-          compliance = system.compliance_of_opening();
-        check_for_jump(parameters,
-                       system,
-                       summary,
-                       before.forces,
-                       compliance,
-                       released_energy,
-                       note);
+        check_for_jump(
+          parameters, system, summary, before.forces, released_energy, note);
       }
     check_interface(parameters, system, summary, note);
     ask_for_strains(system, summary.max_traction);

@@ -127,17 +127,6 @@ namespace Debond
 
 
   std::string
-  variant_name(const unsigned int number)
-  {
-    const std::string digits = std::to_string(number);
-    return "variant-" +
-           std::string(3 - std::min<std::size_t>(3, digits.size()), '0') +
-           digits;
-  }
-
-
-
-  std::string
   rows_file(const std::string &directory)
   {
     const std::string forces = directory + "/reactions.csv";

@@ -47,11 +47,8 @@ namespace Debond
   Scene::values_of_the_paper() const
   {
     std::map<std::string, std::string> values;
-    for (const SceneEntry &entry : read_scene_text(completed_parameters, name))
+    for (const SceneEntry &entry : completed_entries())
       values[entry.full_name()] = entry.value;
-    Scene      defaults;
-    EntryTable table;
-    defaults.declare(table);
     std::string list;
     for (const std::string &physical : physical_entries(*this))
       if (std::none_of(entries.begin(),
@@ -60,7 +57,7 @@ namespace Debond
                          return entry.full_name() == physical;
                        }))
         {
-          std::string unit = table.unit_of(physical);
+          std::string unit = default_entries().unit_of(physical);
           if (physical == "Bone / Young modulus") // it may be an expression
             unit = "MPa";
           list += (list.empty() ? "" : "; ") + physical + " = " +

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
-#include <set>
 
 namespace Debond
 {
@@ -92,23 +91,54 @@ namespace Debond
 
 
 
-  bool
-  is_default(const SceneEntry &entry)
+  const EntryTable &
+  default_entries()
   {
-    const auto text = [](const SceneEntry &e) {
-      return e.full_name() + " = " + e.value;
-    };
-    static const std::set<std::string> defaults = [&] {
+    struct Defaults
+    {
+      Defaults()
+      {
+        scene.declare(table);
+      }
+
       Scene      scene;
       EntryTable table;
-      scene.declare(table);
-      std::set<std::string> texts;
-      for (const SceneEntry &e : read_scene_text(table.text(), "defaults"))
-        texts.insert(text(e));
-      return texts;
-    }();
-    return defaults.count(text(entry)) > 0;
+    };
+    static const Defaults defaults;
+    return defaults.table;
   }
+
+
+
+  std::vector<SceneEntry>
+  Scene::completed_entries() const
+  {
+    if (values.empty()) // a program has made this scene
+      {
+        Scene      copy = *this;
+        EntryTable table;
+        copy.declare(table);
+        return table.entries();
+      }
+    std::vector<SceneEntry> result = default_entries().entries();
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i].value = values[i];
+    return result;
+  }
+
+
+
+  namespace
+  {
+    void
+    take_entries(Scene &scene, const EntryTable &table)
+    {
+      scene.completed_parameters = table.text() + identities(scene);
+      scene.values.clear();
+      for (const SceneEntry &entry : table.entries())
+        scene.values.push_back(entry.value);
+    }
+  } // namespace
 
 
 
@@ -124,7 +154,7 @@ namespace Debond
     for (const SceneEntry &entry : entries)
       {
         table.set(entry);
-        if (!is_default(entry))
+        if (!default_entries().has(entry))
           scene.changed_entries.push_back(entry);
       }
     if (scene.model == ModelKind::automatic)
@@ -140,7 +170,7 @@ namespace Debond
       {
         throw scene.with_place(error);
       }
-    scene.completed_parameters = table.text() + identities(scene);
+    take_entries(scene, table);
     return scene;
   }
 
@@ -190,7 +220,7 @@ namespace Debond
   {
     EntryTable table;
     declare(table);
-    completed_parameters = table.text() + identities(*this);
+    take_entries(*this, table);
   }
 
 
@@ -200,22 +230,20 @@ namespace Debond
     /** What is solved, in lines. Files are named without their directories,
      *  which may be others on another machine: their content counts. */
     std::vector<std::string>
-    lines_to_compare(Scene scene)
+    lines_to_compare(const Scene &scene)
     {
-      if (scene.completed_parameters.empty())
-        scene.complete();
-      std::string &text = scene.completed_parameters;
-      for (const std::string &file : files_of(scene))
-        boost::replace_all(text,
-                           file,
-                           std::filesystem::path(file).filename().string());
       std::vector<std::string> lines;
-      for (const SceneEntry &entry : read_scene_text(text, ""))
+      for (const SceneEntry &entry : scene.completed_entries())
         lines.push_back(entry.full_name() + " = '" + entry.value + "'");
-      Classic<std::istringstream> comments(text);
-      for (std::string line; std::getline(comments, line);)
+      Classic<std::istringstream> contents(identities(scene));
+      for (std::string line; std::getline(contents, line);)
         if (line.rfind("# ", 0) == 0)
           lines.push_back("the file " + line.substr(2));
+      for (std::string &line : lines)
+        for (const std::string &file : files_of(scene))
+          boost::replace_all(line,
+                             file,
+                             std::filesystem::path(file).filename().string());
       // a program may give motions that no entry tells of
       for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
         {
@@ -300,8 +328,7 @@ namespace Debond
     EntryTable table;
     defaults.declare(table);
     if (scene != nullptr)
-      for (const SceneEntry &entry :
-           read_scene_text(scene->completed_parameters, "scene"))
+      for (const SceneEntry &entry : scene->completed_entries())
         table.set(entry);
     table.print(out);
   }

@@ -2,6 +2,7 @@
 #include <debond/support/ranks.h>
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -75,8 +76,19 @@ namespace Debond
 
 
   void
+  ignore_again_what_was_ignored()
+  {
+    for (int signal = 1; signal < NSIG; ++signal)
+      if (is_ignored[signal])
+        std::signal(signal, SIG_IGN);
+  }
+
+
+
+  void
   leave_interruptions_to_parent()
   {
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // nor does it outlive that
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGUSR1, SIG_IGN);

@@ -1,4 +1,5 @@
 #include <debond/support/input_error.h>
+#include <debond/support/interruption.h>
 #include <debond/support/laboratory.h>
 
 #include <fcntl.h>
@@ -120,6 +121,7 @@ namespace Debond
     {
       std::cout << std::flush;
       say_where_the_package_is();
+      ignore_again_what_was_ignored();
       CommandLine line(command, words);
       execvp(line.pointers[0], line.pointers.data());
       throw InputError("debond: this is done in Python: " +

@@ -772,40 +772,4 @@ namespace Debond
            std::max({contact.norm(), support.norm(), force_floor});
   }
 
-
-
-  // The compliances of bodies and machine add up, and the largest eigenvalue of
-  // the sum is not more than the sum of the largest ones.
-  double
-  CoupledSystem::compliance_of_opening() const
-  {
-    if (bone.whole())
-      return std::nan("");
-    InterfaceConfiguration at_rest = configuration;
-    at_rest.chuck_unknowns.clear();
-    const auto solve = [this](const Eigen::VectorXd &loads) {
-      Eigen::VectorXd motion = Eigen::VectorXd::Zero(loads.size());
-      unsigned int    first  = 0;
-      for (const Body *one : body)
-        {
-          const unsigned int n = one->n_unknowns();
-          if (one->condensing())
-            motion.segment(first, n) =
-              one->condensing()->solve(loads.segment(first, n));
-          first += n;
-        }
-      return motion;
-    };
-    double compliance =
-      interface.compliance_of_opening(at_rest,
-                                      bone.n_unknowns() + implant.n_unknowns(),
-                                      solve);
-    const double area = interface.implant_area();
-    for (const unsigned int k : chuck.unknowns())
-      if (const double opened = interface.opening_by_chuck(configuration, k);
-          !chuck.is_prescribed(k) &&
-          opened > 1e-12 * area * std::pow(scale_of(k), 2))
-        compliance += opened / std::abs(chuck.machine_stiffness(k));
-    return compliance;
-  }
 } // namespace Debond

@@ -1,11 +1,9 @@
 // What --check says of a reference curve before anything is run: torques and
 // angles that go against the rotation that the scene prescribes, angles in
 // radians, a curve that turns back. A right curve has no warning, whichever way
-// the implant turns. The same of all models and of studies.
+// the implant turns. The same of all models.
 
 #include <debond/campaigns/run_scene.h>
-#include <debond/campaigns/study.h>
-#include <debond/input/parameter_loop.h>
 #include <debond/scene/scene.h>
 
 #include <cmath>
@@ -94,17 +92,4 @@ main()
                twist + "Control=moment",
                twist + "Value=30 * max(t - 1, 0)"});
   check_scene("nothing turns", {right, twist + "Value=0"});
-
-  const auto entries = [](const std::vector<std::string> &changes) {
-    return with_overrides(read_scene_text(pressed_and_turned, "scene.prm"),
-                          changes);
-  };
-  std::ostringstream study;
-  check_study(entries({opposite,
-                       "Bone/Young modulus={{17000|18000}}",
-                       "Output/Directory=results/study"}),
-              "scene.prm",
-              study);
-  std::cout << "opposite, of a study\n";
-  print_warnings(study);
 }

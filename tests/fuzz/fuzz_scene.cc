@@ -1,7 +1,6 @@
-// Fuzz target: reading a scene with all its checks, or the variants of a study.
+// Fuzz target: reading a scene with all its checks.
 
 #include <debond/input/allowed_values.h>
-#include <debond/input/parameter_loop.h>
 #include <debond/scene/scene.h>
 
 #include "fuzz_target.h"
@@ -46,10 +45,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t *data, const std::size_t size)
     const auto entries = Debond::read_scene_text(text, "scene");
     if (!is_small(entries))
       return;
-    if (!Debond::varied_entries(entries).empty())
-      Debond::study_variants(entries, 0);
-    else
-      Debond::Scene::from_entries(entries, "scene");
+    Debond::Scene::from_entries(entries, "scene");
   });
   return 0;
 }

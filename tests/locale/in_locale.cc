@@ -2,8 +2,6 @@
 // may do: in_locale LOCALE SCENE.prm... What is said goes to said.txt.
 
 #include <debond/campaigns/run_scene.h>
-#include <debond/campaigns/study.h>
-#include <debond/input/parameter_loop.h>
 #include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
 #include <debond/support/runtime.h>
@@ -20,14 +18,7 @@ namespace
   void
   run(const std::string &scene_file, std::ostream &said)
   {
-    const auto entries = read_scene_file(scene_file);
-    if (!varied_entries(entries).empty())
-      {
-        check_study(entries, scene_file, said);
-        run_study(entries, scene_file, 1, true, said);
-        return;
-      }
-    const Scene scene = Scene::from_entries(entries, scene_file);
+    const Scene scene = Scene::from_file(scene_file);
     run_scene(scene, nullptr, &said); // the plan
     print_parameters(said, &scene);
     run_scene(scene);

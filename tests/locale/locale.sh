@@ -36,7 +36,7 @@ plain() {
   find "$1" -type f ! -name 'checkpoint-*' ! -name study.csv -exec sed -i -E '/Written by|run time|<td>date<|seconds?,|<td>[a-zA-Z_]*(second|memory)/d
     s/"[a-z_]*(second|memory)[A-Za-z_]*": [^,}]*//g; s/"(date|command|host)": "[^"]*"//g; s/, [0-9.e-]+ s$//; /^[0-9.]+ (s|min), /d' {} +
   find "$1" -type f -name 'checkpoint-*' -exec sed -i -nE '/^(format|program|step|parameters|state) [0-9.]*$/p' {} +
-  (cd "$1/library/ensemble"
+  [ ! -d "$1/program/ensemble" ] || (cd "$1/program/ensemble"
    sed -i -E 's/<td class="short">[0-9.e-]+<\/td><\/tr>$//' report.html # seconds of each variant
    awk -F, -v OFS=, '{ gsub(/"[^"]*"/, "") }
      NR == 1 { for (i = 1; i <= NF; ++i) of_run[i] = $i ~ /seconds|memory/ }
@@ -48,7 +48,7 @@ for locale in C $german; do
   mkdir "$locale/library" "$locale/python" "$locale/program"
   for part in library python program; do ln -s ../../input "$locale/$part/input"; done
   (cd "$locale/library"
-   "$in_locale" $locale input/everything.prm input/ensemble.prm input/expression.prm input/pattern.prm input/closed.prm > ../number)
+   "$in_locale" $locale input/everything.prm input/expression.prm input/pattern.prm input/closed.prm > ../number)
   if [ $# -gt 0 ]; then
     (cd "$locale/python" && "$@" "$here/in_locale.py" $locale input/rigid.prm > result 2> ../point)
   fi
@@ -58,7 +58,9 @@ for locale in C $german; do
    "$debond" --check input/everything.prm > check
    if [ $# -gt 0 ]; then
      "$debond" input/fit.prm --force > fit-console
-     "$debond" --compare ../library/ensemble input/measured.csv > compared
+     "$debond" --check input/ensemble.prm > ensemble-check
+     "$debond" input/ensemble.prm --force > ensemble-console
+     "$debond" --compare ensemble input/measured.csv > compared
    fi)
 done
 

@@ -61,7 +61,7 @@ STATE = {"linear coin": ONE_LAYER, "linear coin, adaptive": ONE_LAYER,
          "pin": OPENS + "|Chuck / (Press|Translation z) / (Control|Stiffness)|Bone / (Ends|Outer radius)",
          "frictionless": OPENS + "|Bone / Cells",  # rigid and plane
          "mixed mode": OPENS + "|Interface / Mixed mode / (Criterion|Exponent|Normal)",  # of one mode
-         "pulled": SLIDES_NOWHERE + "|Chuck / (Translation [xy]|Rotation z) / (Control|Stiffness)",
+         "pulled": SLIDES_NOWHERE + "|Chuck / (Translation [xy]|Rotation [xyz]) / (Control|Stiffness)",
          "pulled by a soft machine": SLIDES_NOWHERE}  # others: OPENS
 failures = []
 

@@ -1,9 +1,7 @@
-// How compliant bodies and machine are against tractions that open a bond,
-// against closed forms: a bar of bone under a block as wide, nu = 0, gives way
-// by H/E, an implant that deforms by its own H/E more, a machine by A/k, of
-// which half counts for a phi_0 of 1/2; rigid bodies do not, and nothing holds
-// a chuck under a load. A bond that falls by less than the bodies hold with is
-// pulled off without a warning, one that falls by more with one.
+// A bond that falls more slowly than bodies and machine let go is pulled off
+// without a warning, one that falls by more jumps, and the run says so. Closed
+// forms: a bar of bone under a block as wide, nu = 0, holds with E/H, a machine
+// with k/A; of half a bond the fall is half.
 
 #include "driven_scene.h"
 
@@ -38,65 +36,6 @@ const std::string blocks = "subsection Bone\n"
                            " set Times = 0, 1\n"
                            " set Steps = 200\n"
                            "end\n";
-
-double
-compliance(const std::vector<std::string> &overrides)
-{
-  return DrivenScene(blocks, overrides).system.compliance_of_opening();
-}
-
-
-
-void
-check_compliance()
-{
-  const double bar     = 5. / 1000.;
-  const auto   differs = [](const double a, const double b) {
-    return std::abs(a / b - 1.);
-  };
-  report("a bar of bone", differs(compliance({}), bar), 1e-3);
-  report("bone and implant",
-         differs(compliance({"Implant/Material=linear"}), bar + 3. / 500.),
-         1e-3);
-  const std::string spring = "Chuck/Translation z/Stiffness=10000";
-  report("bone and machine",
-         differs(compliance({spring}), bar + 25. / 10000.),
-         1e-3);
-  report("half a bond",
-         differs(compliance({"Interface/Bonding/Bonding degree=0.5"}),
-                 0.5 * bar),
-         1e-3);
-  report("half a bond, bone and machine",
-         differs(compliance({"Interface/Bonding/Bonding degree=0.5", spring}),
-                 0.5 * (bar + 25. / 10000.)),
-         1e-3);
-  report("rigid bodies", compliance({"Bone/Material=rigid"}) == 0.);
-  const std::vector<std::string> sideways{
-    "Bone/Material=rigid", "Chuck/Translation x/Stiffness=10000"};
-  report("along the face nothing opens", compliance(sideways) == 0.);
-  std::vector<std::string> sheared = sideways;
-  sheared.push_back("Interface/Law=mixed mode");
-  report("but breaks a share that is held",
-         differs(compliance(sheared), 25. / 10000.),
-         1e-3);
-  // about the centre of the chuck, 3 mm above a face of 5 mm
-  const std::string tilting = "Chuck/Rotation x/Stiffness=10000";
-  report("a machine that tilts",
-         differs(compliance({"Bone/Material=rigid", tilting}),
-                 25. * 25. / 12. / 10000.),
-         1e-3);
-  report("and breaks a share that is held",
-         differs(compliance({"Bone/Material=rigid",
-                             "Interface/Law=mixed mode",
-                             tilting}),
-                 25. * (25. / 12. + 9.) / 10000.),
-         1e-3);
-  report("a chuck under a load",
-         std::isinf(compliance({"Chuck/Translation z/Control=force",
-                                "Chuck/Translation z/Value=0.1 * t"})));
-}
-
-
 
 // It falls by phi_0 t_0/(e g_0) at most, and the bar holds with E/H = 200
 // MPa/mm.
@@ -163,7 +102,6 @@ int
 main()
 {
   return run_test([] {
-    check_compliance();
     check_warning();
     check_shear();
   });

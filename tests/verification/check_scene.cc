@@ -11,17 +11,15 @@
 //                                      all expectations are met
 
 #include <debond/campaigns/run_scene.h>
-#include <debond/campaigns/study.h>
-#include <debond/input/parameter_loop.h>
 #include <debond/scene/scene.h>
 #include <debond/support/laboratory.h>
 #include <debond/support/runtime.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -60,29 +58,31 @@ namespace
     std::map<std::string, std::string> values;
     for (const Debond::SceneEntry &entry : entries)
       values[entry.full_name()] = entry.value;
-    if (values["Task"] == "calibrate")
+    const bool is_study =
+      std::any_of(entries.begin(), entries.end(), [](const auto &entry) {
+        return entry.value.find("{{") != std::string::npos;
+      });
+    if (const bool is_calibration = values["Task"] == "calibrate";
+        is_calibration || is_study)
       {
         std::vector<std::string> words{scene_file, "--threads=2", "--force"};
         for (const Debond::SceneEntry &entry : entries)
           words.push_back("--set=" + entry.full_name() + "=" + entry.value);
         std::string said;
-        if (Debond::Laboratory::run("calibrate", words, said) != 0)
-          throw Debond::RunError("the calibration failed: " + said);
-        return {read_calibration(values["Output / Directory"])};
-      }
-    if (!Debond::varied_entries(entries).empty())
-      {
-        std::ostringstream log;
-        try
-          {
-            Debond::run_study(entries, scene_file, 2, true, log);
-          }
-        catch (const Debond::RunError &) // study.csv says which variant failed
-          {}
-        return read_study(
-          Debond::Scene::from_entries(
-            Debond::study_variants(entries)[0].entries, scene_file)
-            .output.directory);
+        const int   code =
+          Debond::Laboratory::run(is_calibration ? "calibrate" : "study",
+                                  words,
+                                  said);
+        // 2: study.csv says which variant failed
+        if (code != 0 && (is_calibration || code != 2))
+          throw Debond::RunError("it failed: " + said);
+        const std::string directory =
+          values.count("Output / Directory") > 0 ?
+            values["Output / Directory"] :
+            Debond::OutputParameters().directory;
+        if (is_calibration)
+          return {read_calibration(directory)};
+        return read_study(directory);
       }
 
     Debond::Scene scene = Debond::Scene::from_entries(entries, scene_file);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <ostream>
 #include <string>
 #include <type_traits>
@@ -72,7 +73,13 @@ namespace Debond
     std::string
     unit_of(const std::string &full_name) const;
 
-    /** All entries with their values as a scene. */
+    /** Whether an entry has the value that this table has. */
+    bool
+    has(const SceneEntry &entry) const;
+
+    /** All entries with their values, and these as the text of a scene. */
+    std::vector<SceneEntry>
+    entries() const;
     std::string
     text() const;
 
@@ -83,17 +90,22 @@ namespace Debond
   private:
     struct Row
     {
-      SceneEntry    entry; ///< its place and name
+      SceneEntry    entry; ///< with its value
       AllowedValues allowed;
     };
+
+    /** The row of this name, or none. */
+    const Row *
+    row_of(const std::string &full_name) const;
 
     /** What an unknown entry may have been meant to be, or nothing. */
     std::string
     likely_name(const SceneEntry &entry) const;
 
-    std::vector<std::string> path; ///< the subsections that are open
-    std::vector<Row>         rows;
-    dealii::ParameterHandler prm; ///< values, and what they mean
+    std::vector<std::string>           path; ///< the subsections that are open
+    std::vector<Row>                   rows;
+    std::map<std::string, std::size_t> numbers; ///< of rows, by full names
+    dealii::ParameterHandler           prm;     ///< values, and what they mean
   };
 
 

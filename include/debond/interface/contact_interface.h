@@ -33,10 +33,11 @@ namespace Debond
     double steepest_softening = 0;
     /** p, and -dL/d g_s of that point [MPa, MPa/mm]. */
     double softening_pressure = 0, softening_slope = 0;
-    /** How fast the pull of a full bond may fall as it opens, if a point has
-     *  opened beyond its strength in the step, and no viscosity resists that
+    /** How fast the pull of a bond may fall as it opens, if a point has opened
+     *  beyond its strength in the step, and no viscosity resists that
      *  [MPa/mm]. */
     double       opening_softening = 0;
+    double       squared_traction  = 0; ///< integral over the area [N^2/mm^2]
     double       max_penetration   = 0; ///< [mm]
     double       max_traction      = 0; ///< [MPa]
     unsigned int bonded_opened =
@@ -353,22 +354,6 @@ namespace Debond
      *  the moment about @p centre: the sums are those of the chuck. */
     PointLoad
     load(unsigned int q, const Eigen::Vector3d &centre) const;
-    /** How compliant the bodies are against tractions that open the bond, at
-     *  most, in the trial state, with the chuck at rest [mm/MPa]: times the
-     *  softening of a full bond it is less than 1 where the state is unique.
-     *  @p solve makes displacements of the unknowns of forces on them. */
-    double
-    compliance_of_opening(
-      const InterfaceConfiguration &configuration,
-      const unsigned int            n_unknowns,
-      const std::function<Eigen::VectorXd(const Eigen::VectorXd &)> &solve)
-      const;
-    /** Integral of phi_0 times the square of how far a component of the chuck
-     *  opens the bond, per motion of it: over its stiffness it is what a
-     * machine adds to that. */
-    double
-    opening_by_chuck(const InterfaceConfiguration &configuration,
-                     unsigned int                  component) const;
     /** What the point does, the share that is held included, in its trial
      *  state. */
     PointStatus
@@ -504,12 +489,6 @@ namespace Debond
     /** The share of a point that is held; null: none is. */
     const CohesiveShare *
     held_share(const SlavePoint &point) const;
-    /** Projection on the gaps that open the bond of a point, and the basis of
-     *  the master there. */
-    Eigen::Matrix3d
-    what_opens(const SlavePoint             &point,
-               const InterfaceConfiguration &configuration,
-               SurfaceBasis                 &basis) const;
     /** In the last step. */
     bool
     has_opened_beyond_strength(const SlavePoint &point) const;

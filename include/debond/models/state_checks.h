@@ -82,7 +82,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &energy_balance &released_energy &path &compliance;
+      archive &energy_balance &released_energy &path;
       for (ControlNet &displacement : judged_displacement)
         archive &displacement;
       archive &change_at_strains;
@@ -103,9 +103,6 @@ namespace Debond
     EnergyBalance          energy_balance;
     ReleasedEnergy         released_energy;
     ChuckPath              path;
-    /** CoupledSystem::compliance_of_opening() when the bond first went beyond
-     *  its strength [mm/MPa]; less than 0: it has not. */
-    double compliance = -1;
     /** Of the faces, by side, where ask_for_strains() last asked [mm]. */
     std::array<ControlNet, 2> judged_displacement;
     /** The largest Body::change_at_large_strains(), by side. */

@@ -62,10 +62,6 @@ namespace Debond
   std::optional<std::string>
   parameters_in(const std::string &directory);
 
-  /** The directory of a variant within that of its study: variant-001. */
-  std::string
-  variant_name(unsigned int number);
-
   /** The file in a directory of results with the rows of a run of any scene,
    *  see CurveAxes::rows_file(). */
   std::string

@@ -127,6 +127,12 @@ namespace Debond
     /** All entries, completed with defaults, as a `.prm` text that gives the
      *  same scene again. Filled when the scene is read, or by complete(). */
     std::string completed_parameters;
+    /** The same: values of default_entries(). */
+    std::vector<std::string> values;
+
+    /** All entries with their values. */
+    std::vector<SceneEntry>
+    completed_entries() const;
 
     /** Reads a file, then the overrides "Subsection/Entry=value" in order.
      *  Throws InputError with file, line, entry, value, what is allowed. */
@@ -181,9 +187,10 @@ namespace Debond
     values_of_the_paper() const;
   };
 
-  /** Whether an entry has the value of a scene that nothing was said of. */
-  bool
-  is_default(const SceneEntry &entry);
+  /** All entries, their units, and the values of a scene that nothing was said
+   *  of. */
+  const EntryTable &
+  default_entries();
 
   /** Writes all entries with documentation, what they allow and their values:
    *  those of @p scene, or the defaults without one. */

@@ -10,13 +10,19 @@ namespace Debond
   void
   remember_ignored_signals();
 
+  /** Before another program takes the place of this one: what libraries have
+   *  caught would be lost. */
+  void
+  ignore_again_what_was_ignored();
+
   /** From now on SIGINT, SIGTERM, SIGHUP and SIGUSR1, but for those that are
    * ignored, only ask to stop; a second one ends the process at once. */
   void
   catch_interruptions();
 
   /** For the processes of a study: what a terminal sends to all of them is for
-   *  the one that started them; SIGTERM ends them at once. */
+   *  the one that started them; SIGTERM ends them at once, and so does the end
+   *  of that one. */
   void
   leave_interruptions_to_parent();
 

@@ -250,13 +250,6 @@ namespace Debond
      */
     double
     reaction_defect() const;
-    /** How compliant bodies and chuck are against tractions that open the bond,
-     *  at most [mm/MPa]: times the softening of a full bond this is less than 1
-     *  where the state is unique. Infinite under a load; NaN where no body
-     *  knows, with a bone that is not condensed. Costs some ten solutions. */
-    double
-    compliance_of_opening() const;
-
     Body                       &bone, &implant;
     const std::array<Body *, 2> body; ///< the two by their side
     Chuck                       chuck;

@@ -106,8 +106,8 @@ bind_studies(py::module_ &module)
   });
   module.def("check_variant", check_variant);
   module.def("parameters_in", parameters_in);
-  module.def("summary_in", [](const std::string &directory) {
-    return read_json(directory + "/summary.json").dump();
+  module.def("json_in", [](const std::string &filename) {
+    return read_json(filename).dump();
   });
   module.def("has_other_references", [](const Scene &scene) {
     return has_other_references(scene.output,

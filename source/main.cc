@@ -303,6 +303,10 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   [[noreturn]] void
   become(const std::string &command, const Arguments &arguments)
   {
+    // it reads the scene again, which a pipe does not give twice
+    if (!std::filesystem::is_regular_file(arguments.scene_file))
+      throw InputError(arguments.scene_file +
+                       ": a study or a calibration has to be a regular file");
     std::vector<std::string> words{arguments.scene_file};
     if (arguments.n_threads > 0)
       words.push_back("--threads=" + std::to_string(arguments.n_threads));

@@ -9,11 +9,11 @@ from .errors import RunError
 
 
 def say(text, file=None, end="\n") -> None:
-    """Prints a text at once. A pipe that nobody reads any more, as of `| head`, ends nothing: files count."""
+    """Prints a text at once. A pipe that nobody reads any more, as of `| head`, or a full disk ends nothing: files count."""
     file = file or sys.stdout
     try:
         print(text, file=file, end=end, flush=True)
-    except BrokenPipeError:
+    except OSError:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, file.fileno())
         os.close(nowhere)

@@ -4,8 +4,9 @@ A page needs no other file and no network. It is written whole or not at all. Ne
 """
 
 import os
+import sys
 
-from debond.files import write_whole
+from debond.files import say, write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
 from debond.page_data import NoResults, members, number, short, shown, split_unit, symbols, table_of, with_unit
 from debond.page_run import context_of_run
@@ -45,7 +46,8 @@ def write_page_if_possible(directory):
     """The same at the end of a run, which does not fail because Jinja2 is missing. Returns whether there is a page."""
     try:
         write_page(directory)
-    except ImportError:
+    except ImportError as error:
+        say(f"There is no page of the results: it needs the module {error.name} of Python: apt install python3-{error.name}", sys.stderr)
         return False
     return True
 

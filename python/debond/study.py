@@ -10,6 +10,7 @@ import json
 import math
 import multiprocessing
 import os
+import re
 import shutil
 import signal
 import statistics
@@ -18,12 +19,11 @@ from multiprocessing.connection import Pipe, wait
 
 import _debond
 
-from .ensemble import CHANCE, write_ensemble
 from .errors import Interrupted, RunError, SceneError
 from .files import csv_text, heeding, say, write_whole
 from .page import write_page_if_possible
 from .page_campaigns import names_of
-from .page_data import number, read_json, rows_file
+from .page_data import number, rows_file
 from .variants import is_varied, variants_of
 
 
@@ -54,8 +54,9 @@ class Variant:
         """Reads what its directory holds. Returns the text of parameters.prm there, None without one."""
         existing = _debond.parameters_in(self.directory)
         if existing == self.scene.parameters:
-            self.summary = json.loads(_debond.summary_in(self.directory))
-        program = self.summary.get("provenance", {}).get("program", "")
+            self.summary = json.loads(_debond.json_in(self.directory + "/summary.json"))
+        origin = self.summary.get("provenance")
+        program = origin.get("program", "") if isinstance(origin, dict) else ""
         self.done = self.summary.get("converged") is True and os.path.exists(rows_file(self.directory))
         self.other_program = program if self.done and program != _debond.program else ""
         self.done = self.done and not self.other_program
@@ -66,8 +67,11 @@ class Variant:
 
     def _look_up_repetitions(self):
         self.repetitions = []
-        while len(self.repetitions) < self.n_repetitions and os.path.exists(self._repetition(len(self.repetitions) + 1)):
-            self.repetitions.append(read_json(self._repetition(len(self.repetitions) + 1)))
+        while len(self.repetitions) < self.n_repetitions:
+            one = json.loads(_debond.json_in(self._repetition(len(self.repetitions) + 1)))
+            if not one:
+                break
+            self.repetitions.append(one)
         for name in self.summary if self.repetitions else ():
             if name == "wall_seconds" or name.startswith("seconds_"):
                 seconds = [one[name] for one in self.repetitions if one.get(name) is not None]
@@ -75,8 +79,8 @@ class Variant:
         self.done = self.done and len(self.repetitions) == self.n_repetitions
 
     def forget_repetitions(self):
-        for i in range(1, 1 + len([name for name in os.listdir(self.directory) if name.startswith("repetition-")])):
-            os.remove(self._repetition(i))
+        for name in filter(re.compile(r"repetition-[0-9]+\.json").fullmatch, os.listdir(self.directory)):
+            os.remove(os.path.join(self.directory, name))
         self.repetitions = []
 
     def end_run(self, failure):
@@ -319,7 +323,9 @@ class Study:
 
     def write_ensemble(self):
         """The seed is what stands for chance."""
-        if CHANCE in self.varied:
+        if "Interface / Bonding / Seed" in self.varied:
+            from .ensemble import write_ensemble  # which needs NumPy
+
             for note in write_ensemble(self.directory):
                 self.say(note)
             self.say(f"Statistics over all seeds are in {self.directory}/ensemble.csv and ensemble_summary.csv")
@@ -346,5 +352,6 @@ def main(scene, options):
     for one in signal.valid_signals():
         if signal.getsignal(one) is signal.SIG_IGN:  # as SIGHUP below nohup; libraries may have caught it since
             signal.signal(one, signal.SIG_IGN)
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)  # ignored, it leaves nothing to wait for
     _debond.catch_interruptions()
     return study.run(n_jobs, options["--threads"] or max(1, processors // n_jobs), options["--force"])

@@ -31,7 +31,8 @@ namespace Debond
                         const double                         lag,
                         const double                         stiffness)
     {
-      const double limit = limit_at(0.);
+      const double limit =
+        std::max(limit_at(0.), 1e-6 * (gap.norm() + motion.norm()));
       if (!(limit > 0.))
         return 0.;
       // |gap + s motion| = (1 - s) limit, from within: s from 0 to 1
@@ -69,7 +70,10 @@ namespace Debond
                         (1. - z) / (1. + z);
               }
         }
-      return stiffness * work;
+      // as if it stuck all the way, at most
+      return stiffness * std::min(work,
+                                  0.5 * std::max(gap.squaredNorm(),
+                                                 (gap + motion).squaredNorm()));
     }
   } // namespace
 

@@ -159,7 +159,8 @@ namespace Debond
                    p = summary.pressure, q = summary.tangential,
                    couple =
                      interface.slave_side() == Side::implant ? p * (t - n) : 0.,
-                   shift   = p > 0. ? 0.5 * q * q / p * (t * t / n - n) : 0.,
+                   shift =
+                     p > 0.01 * q ? 0.5 * q * q / p * (t * t / n - n) : 0.,
                    springs = std::abs(couple + shift) / system.R;
       if (interface.is_curved() && springs > 0.01)
         note("springs that differ",

@@ -14,10 +14,9 @@ import numpy
 from .errors import InputError, path_of
 from .files import csv_text, say, write_whole
 from .measured import read_measured
-from .page_data import curve_file, n_rows, read_table, varied_in
+from .page_data import CHANCE, curve_file, n_rows, read_table, varied_in
 
 CURVE = ("angle_deg", "torque_Nmm")
-CHANCE = "Interface / Bonding / Seed"
 #: Members of summary.json, NAME + UNIT: their statistics are called NAME_mean + UNIT and so on.
 QUANTITIES = (("T_max", "_Nmm"), ("theta_max", "_deg"), ("theta_full", "_deg"), ("T_inf", "_Nmm"), ("E_deb", "_Nmm"),
               ("W_adh", "_Nmm"), ("w_adh", "_N_per_m"), ("D_adh", "_Nmm"), ("initial_stiffness", "_Nmm_per_rad"),

@@ -8,6 +8,7 @@ import re
 
 from debond.errors import InputError
 
+CHANCE = "Interface / Bonding / Seed"  # a study over it is an ensemble
 #: Ends of the names of columns and members, and their units.
 UNITS = (("_Nmm_per_rad", "N mm/rad"), ("_MPa_per_mm", "MPa/mm"), ("_N_per_m", "N/m"), ("_Nmm", "N mm"), ("_MPa", "MPa"),
          ("_deg", "°"), ("_mm2", "mm²"), ("_mm", "mm"), ("_MB", "MB"), ("_N", "N"))

@@ -23,7 +23,7 @@ from .errors import Interrupted, RunError, SceneError
 from .files import csv_text, heeding, say, write_whole
 from .page import write_page_if_possible
 from .page_campaigns import names_of
-from .page_data import number, rows_file
+from .page_data import CHANCE, number, rows_file
 from .variants import is_varied, variants_of
 
 
@@ -177,12 +177,15 @@ class Study:
             if entry.name == "Output / Directory":
                 entry.refuse("a study gives each variant a directory of its own below this one: expected one value")
         self.name = name
-        first = _debond.Scene(variants_of(entries)[0].entries, name, ALONE)
-        self.directory, self.reports = first.values["Output / Directory"], first.values["Output / Report"] == "true"
-        self.say = heeding(first.values["Output / Console"], say)
-        self.n_repetitions = int(first.values["Study / Repetitions"])
-        at_once, reference = (first.values["Study / " + entry] for entry in ("Factors varied at once", "Reference variant"))
-        variants = variants_of(entries, 0 if at_once == "all" else int(at_once))
+        variants = variants_of(entries)
+        first = _debond.Scene(variants[0].entries, name, ALONE)
+        values = first.values
+        self.directory, self.reports = values["Output / Directory"], values["Output / Report"] == "true"
+        self.say = heeding(values["Output / Console"], say)
+        self.n_repetitions = int(values["Study / Repetitions"])
+        at_once, reference = (values["Study / " + entry] for entry in ("Factors varied at once", "Reference variant"))
+        if at_once != "all":
+            variants = variants_of(entries, int(at_once))
         self.reference = 0 if reference == "none" else int(reference)
         if self.reference > len(variants):
             first.refuse("Study / Reference variant", f"this study has {len(variants)} variants")
@@ -323,9 +326,12 @@ class Study:
 
     def write_ensemble(self):
         """The seed is what stands for chance."""
-        if "Interface / Bonding / Seed" in self.varied:
-            from .ensemble import write_ensemble  # which needs NumPy
-
+        if CHANCE in self.varied:
+            try:
+                from .ensemble import write_ensemble
+            except ImportError as error:
+                self.say(f"warning: there are no statistics over all seeds: they need the module {error.name} of Python")
+                return
             for note in write_ensemble(self.directory):
                 self.say(note)
             self.say(f"Statistics over all seeds are in {self.directory}/ensemble.csv and ensemble_summary.csv")

@@ -64,48 +64,50 @@ namespace Debond
           others.push_back(text);
       list = others;
     }
+
+
+
+    /** Writes the distances into the @p summary of results in a directory. */
+    void
+    compare_anew(const OutputParameters &output,
+                 const std::string      &directory,
+                 nlohmann::ordered_json &summary)
+    {
+      const auto           files = reference_files(output);
+      const CurveAxes     &axes  = output.axes;
+      const ReferenceCurve curve = read_reference_curve(finest_curve(directory),
+                                                        {},
+                                                        axes),
+                           measured =
+                             read_reference_curve(output.reference_curve,
+                                                  output.reference_columns,
+                                                  axes);
+      erase_texts(summary["remarks"], CurveComparison::remark_begins);
+      if (!measured.empty())
+        {
+          erase_texts(summary["warnings"], output.reference_curve);
+          write_reference(directory, measured, axes);
+          const CurveComparison comparison(curve, measured, axes);
+          const Rotation        rotation(curve);
+          if (axes.is_torsion() &&
+              (rotation.direction == 0. || rotation.reverses))
+            summary.update(comparison.members()); // the remarks say so already
+          else
+            comparison.put_into(summary);
+          for (const std::string &text :
+               comparison.warnings(output.reference_curve))
+            summary["warnings"].push_back(text);
+        }
+      const std::string profiles = directory + "/profiles.csv";
+      if (!output.reference_profiles.empty() &&
+          std::filesystem::exists(profiles))
+        summary.update(
+          compare_profiles(read_profiles(profiles),
+                           read_profiles(output.reference_profiles)));
+      summary["reference_files"] = files;
+      write_json(directory + "/summary.json", summary);
+    }
   } // namespace
-
-
-
-  void
-  compare_anew(const OutputParameters &output,
-               const std::string      &directory,
-               nlohmann::ordered_json &summary)
-  {
-    const auto           files = reference_files(output);
-    const CurveAxes     &axes  = output.axes;
-    const ReferenceCurve curve = read_reference_curve(finest_curve(directory),
-                                                      {},
-                                                      axes),
-                         measured =
-                           read_reference_curve(output.reference_curve,
-                                                output.reference_columns,
-                                                axes);
-    erase_texts(summary["remarks"], CurveComparison::remark_begins);
-    if (!measured.empty())
-      {
-        erase_texts(summary["warnings"], output.reference_curve);
-        write_reference(directory, measured, axes);
-        const CurveComparison comparison(curve, measured, axes);
-        const Rotation        rotation(curve);
-        if (axes.is_torsion() &&
-            (rotation.direction == 0. || rotation.reverses))
-          summary.update(comparison.members()); // the remarks say so already
-        else
-          comparison.put_into(summary);
-        for (const std::string &text :
-             comparison.warnings(output.reference_curve))
-          summary["warnings"].push_back(text);
-      }
-    const std::string profiles = directory + "/profiles.csv";
-    if (!output.reference_profiles.empty() && std::filesystem::exists(profiles))
-      summary.update(
-        compare_profiles(read_profiles(profiles),
-                         read_profiles(output.reference_profiles)));
-    summary["reference_files"] = files;
-    write_json(directory + "/summary.json", summary);
-  }
 
 
 

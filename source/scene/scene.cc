@@ -239,8 +239,9 @@ namespace Debond
       for (std::string line; std::getline(contents, line);)
         if (line.rfind("# ", 0) == 0)
           lines.push_back("the file " + line.substr(2));
+      const std::vector<std::string> files = files_of(scene);
       for (std::string &line : lines)
-        for (const std::string &file : files_of(scene))
+        for (const std::string &file : files)
           boost::replace_all(line,
                              file,
                              std::filesystem::path(file).filename().string());

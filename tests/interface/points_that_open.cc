@@ -44,14 +44,13 @@ lifted(const std::array<double, 2>    &before,
     return std::to_string(a) + " * min(max(t - 1, 0), 1) + " +
            std::to_string(b) + " * max(t - 2, 0)";
   };
-  const bool breaks =
-    std::count(others.begin(),
-               others.end(),
-               "Interface/Friction law=modified coulomb") > 0;
+  const bool               breaks  = std::count(others.begin(),
+                                 others.end(),
+                                 "Interface/Friction law=modified coulomb") > 0;
   std::vector<std::string> entries = {
     "Implant/Cells=6, 2",
-    "Interface/Friction coefficient" +
-      std::string(breaks ? " broken=" : "=") + std::to_string(mu),
+    "Interface/Friction coefficient" + std::string(breaks ? " broken=" : "=") +
+      std::to_string(mu),
     "Interface/Normal stiffness=" + std::to_string(eps),
     "Chuck/Press/Value=0.0049 * min(t, 1) - 0.0098 * max(t - 2, 0)",
     "Chuck/Translation x/Value=" + shift(before[0], while_lifted[0]),
@@ -65,11 +64,12 @@ lifted(const std::array<double, 2>    &before,
 
 
 double
-lost_in_lift(const std::array<double, 2> &before,
-             const std::array<double, 2> &while_lifted,
-             const unsigned int           n = 1)
+lost_in_lift(const std::array<double, 2>    &before,
+             const std::array<double, 2>    &while_lifted,
+             const unsigned int              n      = 1,
+             const std::vector<std::string> &others = {})
 {
-  const auto rows = lifted(before, while_lifted, n);
+  const auto rows = lifted(before, while_lifted, n, others);
   report("  no row with a warning",
          std::all_of(rows.begin(), rows.end(), [](const auto &row) {
            return row.warnings == 0;
@@ -101,6 +101,14 @@ check_closed_forms()
                       1.),
              1e-4);
     }
+  std::cout << "held by viscosity until it opens" << std::endl;
+  const double way = 20. * limit;
+  report("  dissipation differs by",
+         std::abs(lost_in_lift(
+                    {{0., 0.}}, {{way, 0.}}, 1, {"Interface/Viscosity=1e7"}) /
+                    (0.5 * eps * 0.25 * way * way * area) -
+                  1.),
+         1e-3);
   std::cout << "let go as the limit falls" << std::endl;
   report("  dissipation over what was stored",
          std::abs(
@@ -205,8 +213,7 @@ check_edge(const double coefficient)
                "Implant/Shape=block",
                "Implant/Size=4, 4, 2",
                "Implant/Cells=20, 4, 2",
-               "Interface/Friction coefficient=" +
-                 std::to_string(coefficient),
+               "Interface/Friction coefficient=" + std::to_string(coefficient),
                "Interface/Normal stiffness=" + std::to_string(eps),
                "Chuck/Press/Value=0.0049 * min(t, 1)",
                "Chuck/Translation x/Value=3 * max(t - 1, 0)",

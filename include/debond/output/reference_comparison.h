@@ -31,15 +31,9 @@ namespace Debond
   has_other_references(const OutputParameters       &output,
                        const nlohmann::ordered_json &summary);
 
-  /** Computes the distances of results from the references anew, and writes
-   *  them into their summary.json, which is @p summary. */
-  void
-  compare_anew(const OutputParameters &output,
-               const std::string      &directory,
-               nlohmann::ordered_json &summary);
-
-  /** The same for finished results in a directory, if they have other
-   *  references; returns whether they had. */
+  /** Computes the distances of finished results from the references anew, and
+   *  writes them into their summary.json, if they have other references;
+   * returns whether they had. */
   bool
   compare_anew_if_changed(const OutputParameters &output,
                           const std::string      &directory);

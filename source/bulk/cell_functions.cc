@@ -59,6 +59,33 @@ namespace Debond
 
 
 
+  // Of splines all points at once: a product of matrices.
+  Eigen::MatrixXd
+  CellFunctions::values_at(const std::vector<dealii::Point<3>> &points,
+                           const std::vector<ShapeValues>      &phi) const
+  {
+    Eigen::MatrixXd N(cell.nodes.size(), points.size());
+    if (!space.has_splines())
+      {
+        for (unsigned int q = 0; q < points.size(); ++q)
+          N.col(q) = at(points[q], phi[q]).col(0);
+        return N;
+      }
+    Eigen::MatrixXd polynomials(E.rows(), points.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
+      polynomials.col(q) = phi[q].col(0);
+    N.noalias() = E.transpose() * polynomials;
+    if (w.size() > 0)
+      {
+        N                      = w.asDiagonal() * N;
+        const Eigen::ArrayXd W = N.colwise().sum();
+        N.array().rowwise() /= W.transpose();
+      }
+    return N;
+  }
+
+
+
   Eigen::Vector3d
   CellFunctions::position(const dealii::Point<3> &point) const
   {

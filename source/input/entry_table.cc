@@ -57,6 +57,9 @@ namespace Debond
     const auto number = numbers.find(entry.full_name());
     if (number == numbers.end())
       {
+        if (entry.full_name() == "Load steps / Cyclic symmetry")
+          entry.refuse("there is no such entry any more: all of the contact "
+                       "face is computed; leave it out");
         const std::string special =
           remark_on_special_character(entry.full_name());
         const std::string likely = likely_name(entry);

@@ -148,7 +148,7 @@ namespace Debond
     // close to the singular corner of a disk, where there is no clearance, the
     // search may end early: no partner is to be found there anyway
     if (!projection.converged && projection.clearance > 0.)
-      unprojected += point.n_images;
+      ++unprojected;
     return projection;
   }
 
@@ -413,7 +413,6 @@ namespace Debond
       spread(result.basis, -f, sums[master_side()]);
     };
     forces = sum_in_chunks(points.size(), zero_sums(configuration), update);
-    average(forces);
     for (unsigned int q = 0; q < shares.size(); ++q)
       points[q].trial.state.damage = shares[q].damage;
     // One point without a solution is enough to fail the iteration: a traction
@@ -502,7 +501,6 @@ namespace Debond
     };
     NodalSums result =
       sum_in_chunks(points.size(), zero_sums(configuration), update);
-    average(result);
     return result;
   }
 

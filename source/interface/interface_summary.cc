@@ -90,7 +90,7 @@ namespace Debond
       return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;
     };
     const auto point = [&](const unsigned int q) -> const SlavePoint & {
-      return points[sectors ? number_of_kept[q] : q];
+      return points[q];
     };
     double highest = 0.; // [mm]
     if (!law.joint->pulls())
@@ -100,7 +100,7 @@ namespace Debond
             std::max(highest,
                      law.joint->reach(one.begin(*law.joint, mode_now), 0.));
     // in its row, its column, or both
-    std::vector<unsigned int> times_enclosed(n_points(), 0);
+    std::vector<unsigned int> times_enclosed(points.size(), 0);
     for (const bool is_row : {true, false})
       for (unsigned int line = 0; line < n * elements[is_row]; ++line)
         {
@@ -170,9 +170,9 @@ namespace Debond
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
-        summary.n_beyond += point.accepted.has_partner ? 0 : point.n_images;
+        summary.n_beyond += point.accepted.has_partner ? 0 : 1;
         if (point.faces_implant != point.accepted.has_partner)
-          summary.n_crossed += point.n_images;
+          ++summary.n_crossed;
         if (const CohesiveShare *const share = held_share(point))
           summary.energy += point.JxW * share->energy;
         if (tension.strength > 0. && tension.viscosity == 0. &&
@@ -194,14 +194,14 @@ namespace Debond
             *share_of[static_cast<unsigned int>(status(point))] += point.JxW;
           }
         if (status(point) != PointStatus::open)
-          summary.n_closed += point.n_images;
+          ++summary.n_closed;
         if (trial.state.status == PointStatus::open)
           {
             // whether it was bonded: opening itself may have broken it
             if (!law.joint->pulls() && law.joint->friction->has_bond() &&
                 point.accepted.status != PointStatus::open &&
                 point.friction(*law.joint, point.accepted).phi > 0.)
-              summary.bonded_opened += point.n_images;
+              ++summary.bonded_opened;
             continue;
           }
         // Energy of the springs eps_n and eps_t [N mm], the potential that Eq.
@@ -231,14 +231,13 @@ namespace Debond
 
 
   // The force acts on the implant at the slave point itself or, with the bone
-  // as slave, at the interacting point, as in the nodal forces of Eq. (36). Of
-  // sectors the first one is known, and the centre is on their axis.
+  // as slave, at the interacting point, as in the nodal forces of Eq. (36).
   PointLoad
   ContactInterface::load(const unsigned int     q,
                          const Eigen::Vector3d &centre) const
   {
-    const SlavePoint &point = points[sectors ? number_of_kept[q] : q];
-    const double      area  = point.JxW / point.n_images;
+    const SlavePoint &point = points[q];
+    const double      area  = point.JxW;
     PointLoad         load;
     const auto add = [&](const auto &part, const SurfaceBasis &of_master) {
       const bool            is_slave = slave == Side::implant;
@@ -253,10 +252,6 @@ namespace Debond
       add(point.trial, point.trial.basis);
     if (const CohesiveShare *const share = held_share(point))
       add(*share, share->basis);
-    if (sectors)
-      for (Eigen::Vector3d *const vector : {&load.force, &load.moment})
-        *vector = (*sectors)[slave].turn[(*sectors)[slave].points[q].turns] *
-                  vector->eval();
     return load;
   }
 
@@ -310,7 +305,7 @@ namespace Debond
                      &point.trial.state.xi)
                 .height < 0.5 * depth)
           continue;
-        summary.n_from_side += point.n_images;
+        ++summary.n_from_side;
         summary.side_depth = std::max(summary.side_depth, depth);
       }
   }

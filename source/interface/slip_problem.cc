@@ -292,8 +292,15 @@ namespace Debond
         const Vector2d bounded = master.surface->bounded_step(xi, step);
         if (bounded != step && ++pushes > 5)
           return SlipOutcome::left_patch;
-        // no descent: at the level of rounding there is none to be had, and
-        // the test below says whether this is it
+        // At the level of rounding no descent is to be had, and one more step
+        // is all that there is to gain. Otherwise the test below says whether
+        // this is it.
+        if (error <= 16. * round_off())
+          {
+            xi = master.surface->moved(xi, bounded);
+            evaluate(xi, result.basis);
+            break;
+          }
         if (!search_along(bounded, error, xi, result.basis))
           break;
       }

@@ -93,9 +93,6 @@ namespace Debond
            << bone.n_unknowns() + implant.n_unknowns() << " of them unknowns, "
            << system.n_unknowns()
            << " after condensation on the contact surfaces";
-      if (system.interface.n_sectors() > 1)
-        text << ", " << system.n_unknowns_of_sector() << " of them in one of "
-             << system.interface.n_sectors() << " like sectors";
       return text;
     }
 
@@ -465,7 +462,7 @@ namespace Debond
       out << scene.bulk_solver_in_words() << '\n';
     const std::string faces =
       interface.faces_at_start().in_words(interface.get_law().pulls());
-    out << interface.n_points() << " slave quadrature points on the "
+    out << interface.get_points().size() << " slave quadrature points on the "
         << name_of(interface.slave_side()) << '\n'
         << "memory: some "
         << std::ceil(1e3 * MemoryEstimate(scene,

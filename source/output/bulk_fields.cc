@@ -191,16 +191,13 @@ namespace Debond
                        const unsigned int end) {
                      for (unsigned int k = first; k < end; ++k)
                        {
-                         const CellFunctions functions(space, cell(k));
-                         result[k].setZero(3, points.size());
-                         for (unsigned int q = 0; q < points.size(); ++q)
-                           {
-                             const ShapeValues N =
-                               functions.at(points[q], phi[q]);
-                             for (unsigned int a = 0; a < N.rows(); ++a)
-                               result[k].col(q) +=
-                                 N(a, 0) * field(cell(k).nodes[a]);
-                           }
+                         const auto      &nodes = cell(k).nodes;
+                         Eigen::Matrix3Xd at_nodes(3, nodes.size());
+                         for (unsigned int a = 0; a < nodes.size(); ++a)
+                           at_nodes.col(a) = field(nodes[a]);
+                         result[k] =
+                           at_nodes *
+                           CellFunctions(space, cell(k)).values_at(points, phi);
                        }
                    });
     return result;

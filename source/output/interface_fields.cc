@@ -131,7 +131,7 @@ namespace Debond
     public:
       QuadratureGrid(const ContactInterface &interface,
                      const NurbsSurface     &surface)
-        : points(interface.points_of_all_sectors(images))
+        : points(interface.get_points())
         , n(interface.points_per_element().size())
         , is_one_patch(surface.is_one_patch())
         , n_elements(is_one_patch ? surface.n_elements_per_direction() :
@@ -212,7 +212,6 @@ namespace Debond
         return n * n * element + i % n + n * (j % n);
       }
 
-      std::vector<SlavePoint>            images;
       const std::vector<SlavePoint>     &points;
       const unsigned int                 n;
       const bool                         is_one_patch;
@@ -401,10 +400,9 @@ namespace Debond
              const ContactInterface &interface,
              const Chuck            &chuck)
   {
-    ControlNet              u = control_point_displacement(slave, chuck);
-    std::vector<SlavePoint> images;
-    const auto             &points = interface.points_of_all_sectors(images);
-    Fields                  fields = fields_of(interface.get_law());
+    ControlNet  u      = control_point_displacement(slave, chuck);
+    const auto &points = interface.get_points();
+    Fields      fields = fields_of(interface.get_law());
     // gaps at the start have no part in it
     u.conservativeResize(Eigen::NoChange, u.cols() + 4);
     u.rightCols<4>().setZero();

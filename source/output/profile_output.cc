@@ -67,8 +67,7 @@ namespace Debond
   {
     const BodyParameters       &implant = interface.implant();
     std::vector<InterfacePoint> points;
-    std::vector<SlavePoint>     images;
-    for (const SlavePoint &point : interface.points_of_all_sectors(images))
+    for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
           const auto &X           = point.X;

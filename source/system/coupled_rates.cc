@@ -65,7 +65,7 @@ namespace Debond
       const TimedSection    t(timer, "dense solve");
       const Eigen::VectorXd response =
         bone.whole() ? -solve_with_whole_bone(right, tolerance) :
-                       -solve_condensed(right, tolerance);
+                       -solver.solve(matrix, right, tolerance);
       motion.head(n_v) = response.head(n_v);
       for (const auto &[k, number] : configuration.chuck_unknowns)
         motion[n_v + k] += response[number];

@@ -92,8 +92,6 @@ namespace Debond
                            std::numeric_limits<double>::epsilon() *
                              (R + chuck.reference_centre().norm()) /
                              parameters.load_steps.residual_tolerance))
-    , load_is_axial(parameters.load_steps.cyclic_symmetry &&
-                    is_axial(parameters.chuck))
     , matrix(body, interface, configuration, path)
   {
     configuration.chuck = &chuck;
@@ -174,9 +172,6 @@ namespace Debond
     path.number = first;
     unknowns    = first + (path.follow ? 1 : 0);
     solver.forget();
-    folded_bulk.stiffness.resize(0, 0);
-    if (const auto *const sectors = interface.like_sectors())
-      folded.emplace(*sectors, configuration, unknowns);
   }
 
 
@@ -201,7 +196,6 @@ namespace Debond
       interface.initialise(configuration);
     }
     const TimedSection t(timer, "condensation");
-    auto               found = find_sectors(most_sectors);
     std::vector<bool>  wanted =
       bone_control_points_under_implant(bone.surface(),
                                         implant.surface(),
@@ -212,13 +206,10 @@ namespace Debond
                                 interface.slave_side());
     for (unsigned int A = 0; A < wanted.size(); ++A)
       wanted[A] = wanted[A] || faced[A];
-    if (found)
-      wanted = (*found)[Side::bone].with_images(wanted);
     bone.set_contact_control_points(wanted);
     implant.set_contact_control_points(
       std::vector<bool>(implant.surface().n_control_points(), true));
     number_unknowns();
-    choose_sectors(std::move(found));
   }
 
 
@@ -244,17 +235,12 @@ namespace Debond
     add(touched_bone_control_points(bone.surface(),
                                     interface.get_points(),
                                     interface.slave_side()));
-    const auto *const sectors = interface.like_sectors();
-    if (sectors)
-      wanted = (*sectors)[Side::bone].with_images(wanted);
     if (wanted == bone.contact_control_points())
       return false;
     // everything under the implant now, so that this happens seldom
     add(bone_control_points_under_implant(bone.surface(),
                                           implant.surface(),
                                           configuration));
-    if (sectors)
-      wanted = (*sectors)[Side::bone].with_images(wanted);
     const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(wanted);
     number_unknowns();
@@ -533,7 +519,7 @@ namespace Debond
       {
         const TimedSection t(timer, "dense solve");
         result.unknowns =
-          -solve_condensed(residual.unknowns, relative_tolerance);
+          -solver.solve(matrix, residual.unknowns, relative_tolerance);
       }
     // A singular matrix shows as numbers that are not finite, or, as rounding
     // seldom leaves an exact zero, as a chuck that flies away: by more than a
@@ -635,7 +621,6 @@ namespace Debond
   {
     const TimedSection t(timer, "condensation");
     solver.forget();
-    folded_bulk.stiffness.resize(0, 0);
     return bone.refactor() && implant.refactor();
   }
 

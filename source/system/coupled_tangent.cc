@@ -1,5 +1,4 @@
 #include <debond/system/coupled_tangent.h>
-#include <debond/system/folded_unknowns.h>
 
 #include <Eigen/Geometry>
 
@@ -80,17 +79,6 @@ namespace Debond
 
 
 
-  PathEquation
-  PathEquation::folded(const FoldedUnknowns &unknowns) const
-  {
-    PathEquation result = *this;
-    result.gradient     = unknowns.fold(gradient);
-    result.number       = result.gradient.size() - 1;
-    return result;
-  }
-
-
-
   unsigned int
   CoupledTangent::size() const
   {
@@ -166,7 +154,7 @@ namespace Debond
     add_geometric_part(x, y);
     if (path.follow)
       path.apply(configuration, x, y);
-    scale_rows(configuration, y);
+    scale_rows(y);
     return y;
   }
 
@@ -275,37 +263,17 @@ namespace Debond
   // component is what it makes of a unit vector. The part of the border that
   // couples with v is symmetric. What couples components with each other is in
   // the column already.
-  template <typename Fold>
   void
-  CoupledTangent::add_chuck(const InterfaceConfiguration &numbers,
-                            const Fold                   &fold,
-                            Eigen::MatrixXd              &matrix) const
+  CoupledTangent::add_chuck(Eigen::MatrixXd &matrix) const
   {
-    for (unsigned int i = 0; i < numbers.chuck_unknowns.size(); ++i)
+    for (const auto &[component, number] : configuration.chuck_unknowns)
       {
-        Eigen::VectorXd whole = Eigen::VectorXd::Zero(size());
-        add_geometric_part(
-          Eigen::VectorXd::Unit(size(), configuration.chuck_unknowns[i].second),
-          whole);
-        const Eigen::VectorXd column = fold(whole);
-        const unsigned int    number = numbers.chuck_unknowns[i].second,
-                           n_v       = numbers.chuck_unknowns[0].second;
+        const unsigned int n_v    = configuration.chuck_unknowns[0].second;
+        Eigen::VectorXd    column = Eigen::VectorXd::Zero(size());
+        add_geometric_part(Eigen::VectorXd::Unit(size(), number), column);
         matrix.col(number) += column;
         matrix.row(number).head(n_v) += column.head(n_v).transpose();
       }
-  }
-
-
-
-  Eigen::MatrixXd
-  CoupledTangent::bulk_stiffness() const
-  {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size(), size());
-    for_each_bulk(
-      [&](const CondensingBulk &bulk, const int first, const int n) {
-        matrix.block(first, first, n, n) = bulk.dense_stiffness();
-      });
-    return matrix;
   }
 
 
@@ -316,41 +284,19 @@ namespace Debond
   void
   CoupledTangent::assemble(Eigen::MatrixXd &matrix) const
   {
-    matrix = bulk_stiffness();
+    matrix.setZero(size(), size());
+    for_each_bulk(
+      [&](const CondensingBulk &bulk, const int first, const int n) {
+        matrix.block(first, first, n, n) = bulk.dense_stiffness();
+      });
     interface.add_tangent(configuration, matrix);
-    add_chuck(
-      configuration,
-      [](const Eigen::VectorXd &column) { return column; },
-      matrix);
+    add_chuck(matrix);
     if (path.follow)
       for (unsigned int j = 0; j < size(); ++j)
         path.apply(configuration,
                    Eigen::VectorXd::Unit(size(), j),
                    matrix.col(j));
-    scale_rows(configuration, matrix);
+    scale_rows(matrix);
   }
 
-
-
-  // The same in the unknowns of one sector.
-  void
-  CoupledTangent::add_all_but_bulk(const FoldedUnknowns &unknowns,
-                                   Eigen::MatrixXd      &matrix) const
-  {
-    const InterfaceConfiguration numbers = unknowns.folded(configuration);
-    interface.add_tangent(numbers, matrix);
-    add_chuck(
-      numbers,
-      [&](const Eigen::VectorXd &b) { return unknowns.fold(b); },
-      matrix);
-    if (path.follow)
-      {
-        const PathEquation folded = path.folded(unknowns);
-        for (unsigned int j = 0; j < matrix.cols(); ++j)
-          folded.apply(numbers,
-                       Eigen::VectorXd::Unit(matrix.cols(), j),
-                       matrix.col(j));
-      }
-    scale_rows(numbers, matrix);
-  }
 } // namespace Debond

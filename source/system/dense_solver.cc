@@ -77,7 +77,9 @@ namespace Debond
     } preconditioned{[&](DealVector &result, const DealVector &of) {
       const Eigen::VectorXd       y = as_eigen(of);
       Eigen::Map<Eigen::VectorXd> to(result.begin(), y.size());
-      if (factors)
+      if (of.all_zero()) // where GMRES begins
+        to.setZero();
+      else if (factors)
         to = A.product(factors->solve(y));
       else
         to = y + A.interface_product(A.solve_bulk(y));

@@ -105,17 +105,6 @@ namespace Debond
               "largest difference, relative to the largest torque, from the "
               "curve of the scene's bodies on a converged mesh. Otherwise "
               "not used.");
-    table.add(
-      "Cyclic symmetry",
-      cyclic_symmetry,
-      Allowed::choice("none | auto"),
-      "`auto': if bodies, bond and load are unchanged by a turn "
-      "about the z axis (by 90 degrees for a coin on a block), only "
-      "one sector of contact points and unknowns is computed, but "
-      "not with strength in tension or multigrid. Results differ by "
-      "less than Residual tolerance. `none': compute all. A bond that is to "
-      "break on one side first needs an imperfection, such as a Pattern or "
-      "a small motion in x; it is then computed as a whole.");
     declare_path(*this, table);
     declare_iteration(*this, table);
     table.leave_subsection();

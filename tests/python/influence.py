@@ -20,7 +20,7 @@ import debond
 fits = importlib.import_module("debond.fit")  # the module, not the function
 
 # What only makes the same result faster, says where it goes, or is read after the search.
-OTHERS = ("Title|Task|Output / (?!Observed|Friction energy)|Study / |Load steps / (Cyclic symmetry|Smallest step|Residual)|.* / Solver"
+OTHERS = ("Title|Task|Output / (?!Observed|Friction energy)|Study / |Load steps / (Smallest step|Residual)|.* / Solver"
           "|Calibration / (Starts|Largest misfit|Profiles|Smallest share)")
 RIGID = "subsection Bone\nset Material = rigid\nset Cells = 4, 4, 1\nend\nsubsection Implant\nset Material = rigid\nset Cells = 2, 1\nend\n"
 LINEAR = RIGID.replace("rigid", "linear")

@@ -3,7 +3,7 @@
 
     points_of_pictures.py DEBOND TOP SCRATCH
 
-Over shapes, slaves, laws, sectors and motions; 1e-6 of the sum of magnitudes is what numbers of 7 digits allow."""
+Over shapes, slaves, laws and motions; 1e-6 of the sum of magnitudes is what numbers of 7 digits allow."""
 import csv
 import os
 import re

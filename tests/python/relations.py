@@ -170,7 +170,6 @@ def related(scene):
         yield ("pressed = moved along -z", {**pressed, "Chuck/Translation z/Value": f"-({entries['Chuck/Press/Value']})"}, files, Change(), none)
     if scene.what[0] == "file":
         yield "renumbered meshes", entries, {key: file.renumbered(scene.chance) if isinstance(file, Mesh) else file for key, file in files.items()}, Change(), none
-    yield "no sectors", {**entries, "Load steps/Cyclic symmetry": "none"}, files, Change(), none
     yield "parameters.prm", None, files, Change(), none
 
 

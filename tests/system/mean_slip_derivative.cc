@@ -43,7 +43,6 @@ check(const std::string &slave)
     end
     subsection Load steps
       set Path following = slip
-      set Cyclic symmetry = none # in directions without any
     end)");
   CoupledSystem    system(scene);
   ContactPointMode mode;

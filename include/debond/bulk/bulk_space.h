@@ -349,6 +349,10 @@ namespace Debond
      *  share. */
     ShapeValues
     at(const dealii::Point<3> &point, const ShapeValues &phi) const;
+    /** Their values alone at several points, a column each. */
+    Eigen::MatrixXd
+    values_at(const std::vector<dealii::Point<3>> &points,
+              const std::vector<ShapeValues>      &phi) const;
 
     /** Reference position of a point [mm]. */
     Eigen::Vector3d

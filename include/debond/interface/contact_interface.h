@@ -1,12 +1,11 @@
 #ifndef debond_interface_contact_interface_h
 #define debond_interface_contact_interface_h
 
-#include <debond/geometry/cyclic_symmetry.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/cohesive_share.h>
 #include <debond/interface/interface_configuration.h>
 #include <debond/interface/interface_parameters.h>
-#include <debond/interface/point_tangent.h>
+#include <debond/interface/point_motion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -221,12 +220,6 @@ namespace Debond
     void
     initialise(const InterfaceConfiguration &configuration);
 
-    /** From here on the points of one sector stand for all. To be called after
-     *  initialise(), of surfaces that have this symmetry; nothing is done, and
-     *  false returned, if the bond of the points has not. */
-    bool
-    keep_one_sector(const SectorsOfSurfaces &sectors_of_surfaces);
-
     /** Updates all points. Returns false if a point found no solution. */
     bool
     evaluate(const InterfaceConfiguration &configuration,
@@ -322,22 +315,12 @@ namespace Debond
     unsigned int
     n_enclosed() const;
 
-    /** Those that are updated: of one sector, if one stands for all. */
+    /** Points of the slave surface, numbered as surface_quadrature() does, with
+     *  their trial states. */
     const std::vector<SlavePoint> &
     get_points() const
     {
       return points;
-    }
-    /** All points of the slave surface, numbered as surface_quadrature() does,
-     *  with their trial states, for output: get_points(), or @p images, into
-     *  which those of all sectors are put. */
-    const std::vector<SlavePoint> &
-    points_of_all_sectors(std::vector<SlavePoint> &images) const;
-    /** How many of them there are. */
-    unsigned int
-    n_points() const
-    {
-      return sectors ? number_of_kept.size() : points.size();
     }
     /** Along each parameter of a slave surface element. */
     const dealii::Quadrature<1> &
@@ -349,8 +332,8 @@ namespace Debond
      *  is held [MPa]. */
     PointTraction
     traction(const SlavePoint &point) const;
-    /** Of number @p q of the points of all sectors in the accepted state, with
-     *  the moment about @p centre: the sums are those of the chuck. */
+    /** Load of a point in the accepted state, with the moment about @p centre:
+     *  the sums are those of the chuck. */
     PointLoad
     load(unsigned int q, const Eigen::Vector3d &centre) const;
     /** What the point does, the share that is held included, in its trial
@@ -424,13 +407,6 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       tangent_is_gathered = false;
-      if constexpr (!is_in_memory<Archive>)
-        {
-          unsigned int saved = n_sectors();
-          archive     &saved;
-          if (saved != n_sectors())
-            refuse_sectors(saved);
-        }
       for (SlavePoint &point : points)
         archive &point;
       for (CohesiveShare &share : shares)
@@ -445,26 +421,7 @@ namespace Debond
         failed = nullptr; // no state that has been accepted did
     }
 
-    /** Null if all points are updated. */
-    const SectorsOfSurfaces *
-    like_sectors() const
-    {
-      return sectors.get();
-    }
-    /** How many there are, of which the points of one are updated; or 1. */
-    unsigned int
-    n_sectors() const
-    {
-      return sectors ? (*sectors)[slave].n_sectors() : 1;
-    }
-
   private:
-    /** Throws ForeignCheckpoint. */
-    [[noreturn]] void
-    refuse_sectors(unsigned int saved) const;
-    /** Gives all sectors what the one that is kept has. */
-    void
-    average(NodalSums &sums) const;
     Side
     master_side() const
     {
@@ -532,11 +489,9 @@ namespace Debond
     void
     gather_tangent() const;
     void
-    add_products_of_shares(unsigned int                    chunk,
-                           const std::array<PaddedNet, 2> &moved,
-                           std::array<PaddedNet, 2>       &sums) const;
-    void
-    add_path_of_share(unsigned int q, NodalSums &gradient) const;
+    add_products_of_shares(unsigned int      chunk,
+                           const PaddedNets &moved,
+                           PaddedNets       &sums) const;
 
     const InterfaceParameters        parameters;
     const ContactPointLaw            law;
@@ -546,10 +501,6 @@ namespace Debond
     const bool                       master_is_level, master_is_flat;
     const dealii::Quadrature<1>      along; ///< an element
     std::vector<SlavePoint>          points;
-    /** Of both surfaces, if one sector stands for all; else null. */
-    std::unique_ptr<const SectorsOfSurfaces> sectors;
-    /** Which of `points' stands for each of all. */
-    std::vector<unsigned int> number_of_kept;
     /** Of each point, by laws that hold one; else empty. */
     std::vector<CohesiveShare>            shares;
     double                                area_of_implant = 0;

@@ -90,8 +90,6 @@ namespace Debond
     /** False for points of a bone that does not face the implant at the
      *  start: their area does not count. */
     bool faces_implant = true;
-    /** How many points it stands for, by symmetry; JxW is the area of all. */
-    unsigned int n_images = 1;
 
     /** phi and mu in one of its states. */
     FrictionCoefficient

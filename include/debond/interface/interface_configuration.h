@@ -23,9 +23,6 @@ namespace Debond
        *  also of the origin and of three points of its frame. */
       ControlNet      positions;
       Eigen::Matrix3d frame = Eigen::Matrix3d::Identity(); ///< Q of the body
-      /** By which the frame of each control point is turned against that;
-       * empty: none is. */
-      std::vector<Eigen::Matrix3d> turns;
       /** For 3 (control point) + component (body frame): number in the coupled
        *  system, -1: none. */
       std::vector<int> unknown_of;

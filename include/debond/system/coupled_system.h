@@ -5,7 +5,6 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/system/coupled_tangent.h>
-#include <debond/system/folded_tangent.h>
 #include <debond/system/load_step_parameters.h>
 #include <debond/system/press_fit.h>
 #include <debond/system/whole_solver.h>
@@ -110,13 +109,6 @@ namespace Debond
     commit(double parameter);
     void
     rollback();
-
-    /** Number of unknowns of one sector. */
-    unsigned int
-    n_unknowns_of_sector() const
-    {
-      return folded ? folded->size() : unknowns;
-    }
 
     struct Residual
     {
@@ -249,7 +241,7 @@ namespace Debond
      *  to the larger of the two, moments divided by R: 0 for a rigid implant.
      */
     double
-    reaction_defect() const;
+                                reaction_defect() const;
     Body                       &bone, &implant;
     const std::array<Body *, 2> body; ///< the two by their side
     Chuck                       chuck;
@@ -303,28 +295,6 @@ namespace Debond
       return is_rotation(chuck_component) ? R : 1.;
     }
 
-    /** @name Cyclic symmetry (coupled_symmetry.cc) */
-    //@{
-    /** Whether the chuck moves along z and turns about it, and no more. */
-    static bool
-    is_axial(const ChuckParameters &chuck);
-    /** A coin of equal cells has 4, round bodies as many as cells around. */
-    static constexpr unsigned int most_sectors = 96;
-    /** Like sectors, as many as can be and @p most at most, into which turns
-     *  about the z axis divide both surfaces; nothing if they do not, or if the
-     *  load or the law is none that leaves the symmetry. */
-    std::optional<SectorsOfSurfaces>
-    find_sectors(unsigned int most) const;
-    /** Whether the bodies resist alike in all of them. */
-    bool
-    bodies_have(const SectorsOfSurfaces &sectors_of_surfaces) const;
-    /** Takes what was found, or fewer sectors, if bodies and bond have them. */
-    void
-    choose_sectors(std::optional<SectorsOfSurfaces> found);
-    //@}
-    /** Solves with the tangent where both bodies are condensed. */
-    Eigen::VectorXd
-    solve_condensed(const Eigen::VectorXd &b, double relative_tolerance);
     /** Solves with the tangent where the bone is a WholeBulk. */
     WholeSolution
     solve_whole(const Eigen::VectorXd &b,
@@ -342,10 +312,6 @@ namespace Debond
     /** Of each body in the last evaluate(). */
     std::array<Body::Residual, 2> bulk_residual;
     DenseSolver                   solver;
-    /** Whether the load leaves a cyclic symmetry as it is. */
-    const bool                    load_is_axial;
-    std::optional<FoldedUnknowns> folded; ///< if there are like sectors
-    FoldedBulk                    folded_bulk;
     double                        trial_time = 0;
     PathEquation                  path;
     const CoupledTangent          matrix;

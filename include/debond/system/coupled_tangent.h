@@ -8,8 +8,6 @@
 
 namespace Debond
 {
-  class FoldedUnknowns;
-
   /**
    * What it takes to follow a path of equilibrium: all six chuck components and
    * the time are unknowns of the coupled system then, with the equations q_k =
@@ -48,10 +46,6 @@ namespace Debond
     apply(const InterfaceConfiguration &configuration,
           const Eigen::VectorXd        &x,
           Eigen::Ref<Eigen::VectorXd>   y) const;
-
-    /** The same for unknowns that are folded. */
-    PathEquation
-    folded(const FoldedUnknowns &unknowns) const;
 
   private:
     /** d equation / d unknowns, of the last evaluate(). */
@@ -102,13 +96,6 @@ namespace Debond
     /** B x without the chuck. */
     Eigen::VectorXd
     bulk_product(const Eigen::VectorXd &x) const;
-    /** B, where A can be assembled. */
-    Eigen::MatrixXd
-    bulk_stiffness() const;
-    /** Adds E^T C E. */
-    void
-    add_all_but_bulk(const FoldedUnknowns &unknowns,
-                     Eigen::MatrixXd      &matrix) const;
 
     /** @name Without the bone
      *  B of the unknowns that follow those of the bone, and its inverse. */
@@ -146,17 +133,14 @@ namespace Debond
     product_without_bulk(const Eigen::VectorXd &x) const;
     /** Adds the part of it that add_geometric_part() makes of the component of
      *  the chuck with a number, as a column, and of the coupling as a row. */
-    template <typename Fold>
     void
-    add_chuck(const InterfaceConfiguration &numbers,
-              const Fold                   &fold,
-              Eigen::MatrixXd              &matrix) const;
+    add_chuck(Eigen::MatrixXd &matrix) const;
     /** Multiplies the rows of the chuck. */
     template <typename Rows>
     void
-    scale_rows(const InterfaceConfiguration &numbers, Rows &rows) const
+    scale_rows(Rows &rows) const
     {
-      for (const auto &[k, row] : numbers.chuck_unknowns)
+      for (const auto &[k, row] : configuration.chuck_unknowns)
         rows.row(row) *= path.row_scale[k];
     }
     /** D: stiffness of the unknown component @p k of the chuck in B [N/mm,

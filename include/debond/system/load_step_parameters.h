@@ -20,9 +20,6 @@ namespace Debond
     double                    residual_tolerance     = 1e-8;
     bool                      adaptive               = false;
     double                    tolerance = 1e-3; ///< of the curves, if adaptive
-    /** Compute one sector where bodies, bond and load have a cyclic symmetry.
-     */
-    bool cyclic_symmetry = true;
     /** Follow the path of equilibrium by the mean sliding distance. */
     bool follow_path = false;
     /** Largest step of the mean sliding distance [mm]; 0: from the law. */

@@ -1,5 +1,8 @@
 #include <debond/bulk/bulk_space.h>
 
+#include <array>
+#include <cmath>
+
 namespace Debond
 {
   Eigen::Vector2d
@@ -167,21 +170,25 @@ namespace Debond
       w = weights.replicate(n_levels, 1);
 
     E.resize(space.element().n_dofs_per_cell(), cell.nodes.size());
+    std::array<Eigen::VectorXd, 9> functions; // of the columns
     for (unsigned int a = 0; a < E.rows(); ++a)
       {
         const dealii::Point<3> &p = space.element().unit_support_point(a);
-        const SurfaceBasis      N = functions_of_face(p[0], p[1]);
         // sum_b B_b = 1 makes polynomials of the rational functions
-        const Eigen::VectorXd ratios =
-          Eigen::Map<const Eigen::ArrayXd>(N.N.data(), n_face) /
-          weights.array();
+        Eigen::VectorXd &ratios = functions[std::lround(2. * p[0] + 6. * p[1])];
+        if (ratios.size() == 0)
+          {
+            const SurfaceBasis N = functions_of_face(p[0], p[1]);
+            ratios = Eigen::Map<const Eigen::VectorXd>(N.N.data(), n_face)
+                       .cwiseQuotient(weights);
+            ratios /= ratios.sum();
+          }
         // zeta runs upwards, the depth from the contact face
         const double inwards = space.side() == Side::bone ? 1. - p[2] : p[2];
         const auto   M =
           depth.evaluate(cell.layer, (1. - inwards) * begin + inwards * end);
         for (unsigned int k = 0; k < n_levels; ++k)
-          E.row(a).segment(k * n_face, n_face) =
-            M.B[k] / ratios.sum() * ratios.transpose();
+          E.row(a).segment(k * n_face, n_face) = M.B[k] * ratios.transpose();
       }
   }
 

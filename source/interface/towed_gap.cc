@@ -53,20 +53,31 @@ namespace Debond
         , chord(chord_length > 0. ? this->motion / chord_length : 1.)
       {}
 
-      /** The part of the chord that lies behind the point after a @p fraction
-       * of its way, turned into the direction from where it came. */
-      Vector
-      part(const double fraction) const
+      /** After a fraction of the way: the part of the chord that lies behind,
+       *  turned into the direction from where the point came, and the direction
+       *  in which it goes. */
+      struct Here
       {
-        if (arc.turn == 0. || fraction == 0. || fraction == 1.)
-          return fraction;
-        const Arc behind(arc.turn * fraction);
-        return std::polar(fraction * behind.chord_over_length /
-                            arc.chord_over_length,
-                          0.5 * (behind.turn - arc.turn));
+        Vector part, direction;
+      };
+      Here
+      at(const double fraction) const
+      {
+        const Vector back = std::conj(arc.half_turn);
+        if (fraction == 0.)
+          return {0., chord * back};
+        if (fraction == 1.)
+          return {1., chord * arc.half_turn};
+        if (arc.turn == 0.)
+          return {fraction, chord};
+        const Arc    behind(arc.turn * fraction);
+        const Vector half = behind.half_turn * back;
+        return {fraction * behind.chord_over_length / arc.chord_over_length *
+                  half,
+                chord * half * behind.half_turn};
       }
 
-      /** Its derivative by the turn. */
+      /** Derivative of that part by the turn. */
       Vector
       part_by_turn(const double fraction) const
       {
@@ -82,7 +93,7 @@ namespace Debond
             0.5 * (f * std::cos(f * h) - std::sin(f * h) / std::tan(h)) /
               std::sin(h);
         return ratio_by_turn * std::polar(1., h * (f - 1.)) +
-               0.5 * (f - 1.) * perpendicular(part(f));
+               0.5 * (f - 1.) * perpendicular(at(f).part);
       }
       double
       length_by_turn() const
@@ -91,18 +102,6 @@ namespace Debond
         return -length / c *
                (std::abs(t) < 0.02 ? -t / 12. + t * t * t / 480. :
                                      (std::cos(0.5 * t) - c) / t);
-      }
-
-      Vector
-      direction(const double fraction) const
-      {
-        if (fraction == 0.)
-          return chord * std::conj(arc.half_turn);
-        if (fraction == 1.)
-          return chord * arc.half_turn;
-        return arc.turn == 0. ?
-                 chord :
-                 chord * std::polar(1., arc.turn * (fraction - 0.5));
       }
     };
 
@@ -123,12 +122,13 @@ namespace Debond
                 const double  change)
       {
         const auto excess = [&](const double at) {
-          fraction  = at;
-          part      = path.part(at);
-          gap       = old_gap + part * path.motion;
-          direction = path.direction(at);
-          limit     = old_limit + at * change;
-          slope     = 2. * (dot(gap, direction) * path.length - limit * change);
+          const auto here = path.at(at);
+          fraction        = at;
+          part            = here.part;
+          direction       = here.direction;
+          gap             = old_gap + part * path.motion;
+          limit           = old_limit + at * change;
+          slope = 2. * (dot(gap, direction) * path.length - limit * change);
           return std::norm(gap) - limit * limit;
         };
         // It slides at once, or at rounding, as it did when it came here.
@@ -314,7 +314,7 @@ namespace Debond
     // kappa bends away from positive alpha
     const double  turn_left = (1. - beginning.fraction) * path.arc.turn;
     const Turning turning(start.unit, x, -0.5 * turn_left);
-    const Vector  tau = path.direction(1.) * turning.turned;
+    const Vector  tau = path.at(1.).direction * turning.turned;
     direction         = {tau.real(), tau.imag()};
     distance = mean_length * turning.growth + start.length - step.length;
 

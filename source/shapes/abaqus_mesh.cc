@@ -206,7 +206,7 @@ namespace Debond
                 std::nullopt;
             if (!number)
               refuse("expected a node, its number and x, y, z");
-            x[d] = number.value_or(0.);
+            x[d] = *number;
           }
         if (!node_number.emplace(integer(items[0]), mesh.nodes.size()).second)
           refuse("the second node " + items[0] +
@@ -256,10 +256,8 @@ namespace Debond
             const long step = items.size() > 2 ? integer(items[2]) : 1;
             if (items.size() < 2 || step < 1)
               refuse("expected the first and the last element, and a step");
-            else
-              for (long e = integer(items[0]); e <= integer(items[1]);
-                   e += step)
-                set.push_back(e);
+            for (long e = integer(items[0]); e <= integer(items[1]); e += step)
+              set.push_back(e);
             return;
           }
         for (const auto &item : items)
@@ -283,9 +281,8 @@ namespace Debond
         const auto face = faces.find(items.size() < 2 ? "" : upper(items[1]));
         if (face == faces.end())
           refuse("expected an element or a set of them and a face, S1 to S6");
-        else
-          surfaces[parameters["NAME"]].push_back(
-            {upper(items[0]), face->second, line_number});
+        surfaces[parameters["NAME"]].push_back(
+          {upper(items[0]), face->second, line_number});
       }
 
       void
@@ -301,14 +298,10 @@ namespace Debond
             const auto found = element_number.find(element);
             if (found == element_number.end())
               refuse("there is no hexahedron " + std::to_string(element));
-            else
-              {
-                faces.emplace_back();
-                for (unsigned int v = 0; v < 4; ++v)
-                  faces.back()[v] =
-                    mesh.hexahedra[found->second][dealii::GeometryInfo<
-                      3>::face_to_cell_vertices(sides.face, v)];
-              }
+            auto &face = faces.emplace_back();
+            for (unsigned int v = 0; v < 4; ++v)
+              face[v] = mesh.hexahedra[found->second][dealii::GeometryInfo<
+                3>::face_to_cell_vertices(sides.face, v)];
           }
       }
 
@@ -325,10 +318,7 @@ namespace Debond
         const auto number = read_number(item);
         if (!number || *number != std::floor(*number) || *number < 0 ||
             *number > 1e12)
-          {
-            refuse("'" + item + "' is no number of a node or an element");
-            return 0;
-          }
+          refuse("'" + item + "' is no number of a node or an element");
         return static_cast<long>(*number);
       }
 

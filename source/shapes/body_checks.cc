@@ -153,17 +153,17 @@ namespace Debond
       const BodyParameters usual =
         is_bone ? BodyParameters() : BodyParameters::default_implant();
       const ShapeRow &own     = body.shape_row();
-      const auto      entries = entries_of(body, is_bone);
-      for (const SceneEntry &other : entries_of(usual, is_bone))
-        for (const SceneEntry &entry : entries)
-          refuse(entry.name == other.name && entry.value != other.value &&
-                   !has(own, entry.name) &&
-                   std::any_of(shape_rows().begin(),
-                               shape_rows().end(),
-                               [&](const ShapeRow &shape) {
-                                 return has(shape, entry.name);
-                               }),
-                 entry.name,
+      const auto      entries = entries_of(body, is_bone),
+                 others       = entries_of(usual, is_bone);
+      for (std::size_t i = 0; i < entries.size(); ++i)
+        if (const std::string &name = entries[i].name;
+            entries[i].value != others[i].value && !has(own, name))
+          refuse(std::any_of(shape_rows().begin(),
+                             shape_rows().end(),
+                             [&](const ShapeRow &shape) {
+                               return has(shape, name);
+                             }),
+                 name,
                  "it has no meaning for this Shape, " + own.name + ": give " +
                    boost::join(own.entries, " and "));
       refuse(body.shape == BodyShape::file && body.cells != usual.cells,

@@ -201,10 +201,10 @@ namespace Debond
               const ElementType type(types[t]);
               for (std::size_t e = 0; e < elements[t].size(); ++e)
                 {
-                  faces.emplace_back();
-                  faces.back().fill(StoredMesh::none);
+                  auto &face = faces.emplace_back();
+                  face.fill(StoredMesh::none);
                   for (int n = 0; n < std::min(type.n_corners, 4); ++n)
-                    faces.back()[n] = number.at(nodes[t][e * type.n_nodes + n]);
+                    face[n] = number.at(nodes[t][e * type.n_nodes + n]);
                 }
             }
         }

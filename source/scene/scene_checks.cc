@@ -308,10 +308,6 @@ namespace Debond
           throw EntryError(section + " / Shape",
                            "Model = auto makes its own meshes: expected Model "
                            "= finite elements, or another shape");
-        if (model == ModelKind::automatic && body.is_fitted())
-          throw EntryError(section + " / Cells",
-                           "Model = auto makes its own cells: expected "
-                           "numbers");
       }
     if (bone.is_fitted() && implant.shape != BodyShape::coin &&
         implant.shape != BodyShape::cap)

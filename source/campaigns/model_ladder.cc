@@ -85,9 +85,9 @@ namespace Debond
     can_be_halved(const BodyParameters &body, const unsigned int fewest_across)
     {
       const auto &n = body.cells;
-      return body.cells_under_implant == 0 && n[0] % 2 == 0 && n[1] % 2 == 0 &&
-             n[2] % 2 == 0 && std::min(n[0], n[1]) >= 2 * fewest_across &&
-             n[2] >= 4;
+      return body.cells_under_implant == 0 && !body.is_fitted() &&
+             n[0] % 2 == 0 && n[1] % 2 == 0 && n[2] % 2 == 0 &&
+             std::min(n[0], n[1]) >= 2 * fewest_across && n[2] >= 4;
     }
   } // namespace
 
@@ -112,9 +112,14 @@ namespace Debond
 
 
   std::string
-  in_words(const std::array<unsigned int, 3> &cells)
+  in_words(const BodyParameters &body)
   {
-    return Text() << cells[0] << " x " << cells[1] << " x " << cells[2];
+    const auto &n = body.is_fitted() ? body.fitted_cells : body.cells;
+    Text        text;
+    text << (body.is_fitted() ? "fitted " : "") << n[0] << " x " << n[1];
+    if (body.is_fitted() && n[2] > 0) // of a bone
+      text << " x " << n[2];
+    return text << " x " << body.cells[2];
   }
 
 
@@ -132,8 +137,8 @@ namespace Debond
   std::string
   ModelLevel::description() const
   {
-    return model() + ", " + in_words(scene.bone.cells) + " and " +
-           in_words(scene.implant.cells) + " cells";
+    return model() + ", " + in_words(scene.bone) + " and " +
+           in_words(scene.implant) + " cells";
   }
 
 
@@ -191,8 +196,9 @@ namespace Debond
         for (BodyParameters *const body : {&bone, &implant})
           {
             body->cells_under_implant *= 2;
-            for (unsigned int &n : body->cells)
-              n *= 2;
+            for (auto *const numbers : {&body->cells, &body->fitted_cells})
+              for (unsigned int &n : *numbers)
+                n *= 2;
           }
         if (level.unknowns() > scene.largest_number_of_unknowns)
           {

@@ -29,7 +29,7 @@ namespace Debond
       "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");
     std::string text;
     Chuck       chuck(scene.chuck,
-                scene.chuck.place(scene.implant.chuck_height()),
+                scene.chuck.place(scene.implant.geometry().chuck_height),
                 scene.implant.characteristic_radius());
     chuck.place(scene.load_steps.times.front());
     for (const double q : chuck.position())

@@ -49,34 +49,22 @@ namespace Debond
 
   namespace
   {
-    /** Numbers of points in the order they come, the same for those that are
-     *  at the same place. */
-    class PlaceNumbers
+    /** Number of a place among those that are known, which may be a new one. */
+    unsigned int
+    number_of(const Eigen::Vector3d        &X,
+              const double                  tolerance,
+              std::vector<Eigen::Vector3d> &places)
     {
-    public:
-      explicit PlaceNumbers(const double tolerance)
-        : tolerance(tolerance)
-      {}
-
-      unsigned int
-      operator()(const Eigen::Vector3d &X)
-      {
-        const auto found  = std::find_if(places.begin(),
-                                        places.end(),
-                                        [&](const Eigen::Vector3d &other) {
-                                          return (X - other).norm() < tolerance;
-                                        });
-        const auto number = std::distance(places.begin(), found);
-        if (found == places.end())
-          places.push_back(X);
-        return number;
-      }
-
-      std::vector<Eigen::Vector3d> places;
-
-    private:
-      const double tolerance;
-    };
+      const auto found  = std::find_if(places.begin(),
+                                      places.end(),
+                                      [&](const Eigen::Vector3d &other) {
+                                        return (X - other).norm() < tolerance;
+                                      });
+      const auto number = std::distance(places.begin(), found);
+      if (found == places.end())
+        places.push_back(X);
+      return number;
+    }
   } // namespace
 
 
@@ -108,15 +96,17 @@ namespace Debond
     double size = 0.;
     for (const NurbsSurface &patch : patches)
       size = std::max(size, patch.points.cwiseAbs().maxCoeff());
-    PlaceNumbers number_of_point(1e-9 * size), number_of_corner(1e-9 * size);
-    NurbsSurface result = patches.front();
-    std::vector<double> weights;
+    const double                 tolerance = 1e-9 * size;
+    std::vector<Eigen::Vector3d> places, places_of_corners;
+    std::vector<double>          weights;
+    NurbsSurface                 result = patches.front();
     for (const NurbsSurface &patch : patches)
       {
         std::vector<unsigned int> own_points, own_corners;
         for (unsigned int A = 0; A < patch.n_control_points(); ++A)
           {
-            own_points.push_back(number_of_point(patch.points.col(A)));
+            own_points.push_back(
+              number_of(patch.points.col(A), tolerance, places));
             if (own_points.back() == weights.size())
               weights.push_back(patch.weight[A]);
             assert(std::abs(weights[own_points.back()] - patch.weight[A]) <=
@@ -124,16 +114,17 @@ namespace Debond
           }
         for (const double v : patch.knots(1).breakpoints())
           for (const double u : patch.knots(0).breakpoints())
-            own_corners.push_back(number_of_corner(patch.point({u, v})));
+            own_corners.push_back(
+              number_of(patch.point({u, v}), tolerance, places_of_corners));
         result.add_patch(patch, own_points, own_corners);
         result.is_rational = result.is_rational || patch.is_rational;
       }
     result.points.resize(3, weights.size());
     for (unsigned int A = 0; A < weights.size(); ++A)
-      result.points.col(A) = number_of_point.places[A];
+      result.points.col(A) = places[A];
     result.weight   = weights;
     result.n_in_row = std::ceil(std::sqrt(double(result.faces.size())));
-    result.faces_at.resize(number_of_corner.places.size());
+    result.faces_at.resize(places_of_corners.size());
     result.find_neighbours();
     return result;
   }
@@ -179,13 +170,8 @@ namespace Debond
   void
   NurbsSurface::find_neighbours()
   {
-    struct FoundSide
-    {
-      int          face, side;
-      unsigned int first;
-      bool         has_partner;
-    };
-    std::map<std::pair<unsigned int, unsigned int>, FoundSide> sides;
+    // by both of their corners: a face and its side
+    std::map<std::pair<unsigned int, unsigned int>, std::pair<int, int>> sides;
     for (int f = 0; f < int(faces.size()); ++f)
       {
         for (const unsigned int corner : faces[f].corners)
@@ -195,18 +181,17 @@ namespace Debond
             const unsigned int first = faces[f].corners[ends_of_side[s][0]],
                                last  = faces[f].corners[ends_of_side[s][1]];
             const auto [found, is_new] =
-              sides.emplace(std::minmax(first, last),
-                            FoundSide{f, s, first, false});
+              sides.emplace(std::minmax(first, last), std::pair(f, s));
             if (is_new)
               continue;
-            FoundSide &other = found->second;
-            if (other.has_partner || other.face == f)
+            const auto [g, side] = found->second;
+            if (g == f || faces[g].across[side].face >= 0)
               throw std::invalid_argument(
                 "More than two faces, or one with itself, meet at a side.");
-            other.has_partner   = true;
-            const bool reversed = other.first != first;
-            faces[f].across[s]  = {other.face, other.side, reversed};
-            faces[other.face].across[other.side] = {f, s, reversed};
+            const bool reversed =
+              faces[g].corners[ends_of_side[side][0]] != first;
+            faces[f].across[s]    = {g, side, reversed};
+            faces[g].across[side] = {f, s, reversed};
           }
       }
   }

@@ -6,6 +6,7 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
+#include <boost/endian/conversion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include <locale>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace Debond
 {
@@ -214,6 +216,46 @@ namespace Debond
 
 
 
+    /** StoredVoxels::along of indices that run along the columns of @p
+     *  directions, whose length is 1. @p source: what the header calls them. */
+    std::array<int, 3>
+    axes_along(const Eigen::Matrix3d &directions,
+               const std::string     &source,
+               const FileRefusal     &refuse)
+    {
+      constexpr double      tolerance = 1e-3;
+      const Eigen::Matrix3d rounded   = directions.array().round();
+      if ((directions - rounded).cwiseAbs().maxCoeff() > tolerance ||
+          rounded.cwiseAbs() * Eigen::Vector3d::Ones() !=
+            Eigen::Vector3d::Ones() ||
+          rounded.cwiseAbs().transpose() * Eigen::Vector3d::Ones() !=
+            Eigen::Vector3d::Ones())
+        {
+          std::string text;
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              text += d == 0 ? "(" : d == 1 ? ", (" : " and (";
+              for (unsigned int axis = 0; axis < 3; ++axis)
+                text +=
+                  to_text(std::round(1e4 * directions(axis, d)) / 1e4 + 0.) +
+                  (axis < 2 ? ", " : ")");
+            }
+          refuse("its axes are oblique or scaled: by its " + source +
+                 " the three indices run along " + text +
+                 ", expected along x, y and z, with the length 1. Resample an "
+                 "oblique image, or remove what turns it to take the axes as "
+                 "they are stored");
+        }
+      std::array<int, 3> along{};
+      for (int d = 0; d < 3; ++d)
+        for (int axis = 0; axis < 3; ++axis)
+          if (rounded(axis, d) != 0.)
+            along[d] = rounded(axis, d) > 0. ? axis + 1 : -(axis + 1);
+      return along;
+    }
+
+
+
     /** AnatomicalOrientation has a letter for where each index begins; some
      *  write where it ends. @p source: what says how they run. */
     void
@@ -267,6 +309,36 @@ namespace Debond
             3))
         voxels.first = unit_of_length(header) *
                        Eigen::Map<const Eigen::Vector3d>(first->data());
+    }
+
+
+
+    /** Size of a number [bytes], and what appends so many of them. */
+    using NumberType = std::pair<std::size_t,
+                                 void (*)(const char         *bytes,
+                                          std::size_t         n,
+                                          bool                is_big_endian,
+                                          std::vector<float> &grey)>;
+
+    template <typename Number>
+    NumberType
+    number_type()
+    {
+      return {sizeof(Number),
+              [](const char         *bytes,
+                 const std::size_t   n,
+                 const bool          is_big_endian,
+                 std::vector<float> &grey) {
+                using namespace boost::endian;
+                constexpr auto size = sizeof(Number);
+                const auto    *from =
+                  reinterpret_cast<const unsigned char *>(bytes);
+                for (std::size_t i = 0; i < n; ++i, from += size)
+                  grey.push_back(
+                    is_big_endian ?
+                      endian_load<Number, size, order::big>(from) :
+                      endian_load<Number, size, order::little>(from));
+              }};
     }
 
 
@@ -351,9 +423,9 @@ namespace Debond
     read_grid(header, voxels);
     read_spacing(header, voxels);
     read_place(header, voxels);
-    const NumberType  type   = read_type(header, voxels);
-    const std::string data   = header.text("ElementDataFile");
-    std::size_t       behind = header.size;
+    const auto [size, append] = read_type(header, voxels);
+    const std::string data    = header.text("ElementDataFile");
+    std::size_t       behind  = header.size;
     if (!boost::iequals(data, "LOCAL", std::locale::classic()))
       {
         if (boost::starts_with(data + " ", "LIST ") ||
@@ -373,11 +445,11 @@ namespace Debond
       }
     const std::size_t n = voxels.n_voxels(refuse);
     voxels.grey.reserve(n);
-    type.append(
-      bytes.data() + begin_of_data(header, n * type.size, behind, bytes.size()),
-      n,
-      header.is_true({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"}, false),
-      voxels.grey);
+    append(bytes.data() + begin_of_data(header, n * size, behind, bytes.size()),
+           n,
+           header.is_true({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"},
+                          false),
+           voxels.grey);
     return voxels;
   }
 } // namespace Debond

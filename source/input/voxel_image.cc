@@ -31,44 +31,6 @@ namespace Debond
 
 
 
-  std::array<int, 3>
-  axes_along(const Eigen::Matrix3d &directions,
-             const std::string     &source,
-             const FileRefusal     &refuse)
-  {
-    constexpr double      tolerance = 1e-3;
-    const Eigen::Matrix3d rounded   = directions.array().round();
-    if ((directions - rounded).cwiseAbs().maxCoeff() > tolerance ||
-        rounded.cwiseAbs() * Eigen::Vector3d::Ones() !=
-          Eigen::Vector3d::Ones() ||
-        rounded.cwiseAbs().transpose() * Eigen::Vector3d::Ones() !=
-          Eigen::Vector3d::Ones())
-      {
-        std::string text;
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            text += d == 0 ? "(" : d == 1 ? ", (" : " and (";
-            for (unsigned int axis = 0; axis < 3; ++axis)
-              text +=
-                to_text(std::round(1e4 * directions(axis, d)) / 1e4 + 0.) +
-                (axis < 2 ? ", " : ")");
-          }
-        refuse("its axes are oblique or scaled: by its " + source +
-               " the three indices run along " + text +
-               ", expected along x, y and z, with the length 1. Resample an "
-               "oblique image, or remove what turns it to take the axes as "
-               "they are stored");
-      }
-    std::array<int, 3> along{};
-    for (int d = 0; d < 3; ++d)
-      for (int axis = 0; axis < 3; ++axis)
-        if (rounded(axis, d) != 0.)
-          along[d] = rounded(axis, d) > 0. ? axis + 1 : -(axis + 1);
-    return along;
-  }
-
-
-
   namespace
   {
     std::string

@@ -1,6 +1,5 @@
 #include <debond/input/entry_table.h>
 #include <debond/interface/bonding_parameters.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
 
@@ -160,7 +159,7 @@ namespace Debond
       throw EntryError(bonding_section + "Pattern",
                        "it needs the name of a file: " + bonding_section +
                          "File");
-    if (is_disk && !implant.geometry().is_round() &&
+    if (is_disk && !implant.geometry().is_round &&
         implant.shape != BodyShape::file)
       throw EntryError(bonding_section + "Pattern",
                        "it is for round implants: Implant / Shape = coin, cap, "

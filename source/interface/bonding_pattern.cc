@@ -1,7 +1,6 @@
 #include <debond/bulk/bulk_space.h>
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/bonding_source.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/number_text.h>
 
@@ -30,7 +29,7 @@ namespace Debond
     for (Part &part : all_parts)
       {
         part.place /= part.area;
-        part.centre = implant.geometry().on_face(implant, part.place);
+        part.centre = implant.geometry().on_face(part.place);
       }
 
     fill(parameters, implant);

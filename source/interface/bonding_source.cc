@@ -3,7 +3,6 @@
 #include <debond/input/expression_parser.h>
 #include <debond/input/input_file.h>
 #include <debond/interface/bonding_source.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -46,8 +45,9 @@ namespace Debond
           throw EntryError(bonding_section + "Expression", error.what());
         }
       const double R = implant.characteristic_radius();
-      return [phi_0, expression, R, &implant](const Eigen::Vector3d &X) {
-        const Eigen::Vector2d place = implant.geometry().on_face(implant, X);
+      return [phi_0, expression, R, face = implant.geometry()](
+               const Eigen::Vector3d &X) {
+        const Eigen::Vector2d place = face.on_face(X);
         const double          angle = std::atan2(X[1], X[0]) * 180. / M_PI;
         const double          r     = X.head<2>().norm();
         // on a pin r = R, whatever rounding says
@@ -115,7 +115,8 @@ namespace Debond
       GreyImage            image = read_grey_image(parameters.file,
                                         bonding_section + "File",
                                         parameters.white_level);
-      const auto           box   = implant.geometry().box_of_face(implant);
+      const BodyGeometry   face  = implant.geometry();
+      const auto           box   = face.box_of_face();
       const Eigen::Array2d size  = box[1] - box[0];
       const double ratio = image.width / size[0] / (image.height / size[1]);
       if (std::max(ratio, 1. / ratio) > 1.02)
@@ -129,8 +130,7 @@ namespace Debond
         image = image.reduced_to(256);
       return values_of(
         [&](const Eigen::Vector3d &X) {
-          const Eigen::Array2d uv =
-            (implant.geometry().on_face(implant, X) - box[0]).array() / size;
+          const Eigen::Array2d uv = (face.on_face(X) - box[0]).array() / size;
           return image.at(uv[0], uv[1]);
         },
         by_element,
@@ -302,7 +302,7 @@ namespace Debond
           file.read(names);
           return values_by_number(file, part, numbered, centres, size);
         }
-      const bool in_bore = implant.geometry().is_in_bore(implant);
+      const bool in_bore = implant.geometry().is_in_bore();
       if (has("phi_0") && (has("element") || in_bore))
         file.refuse("Resolution asks for a value for each " + part +
                     ": expected columns " + part + ",phi_0" +

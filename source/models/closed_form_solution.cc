@@ -1,6 +1,5 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/foundation.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/system/energy_balance.h>
@@ -35,7 +34,7 @@ namespace Debond
     {
       const BondingParameters &bonding = scene.interface.bonding;
       const bool is_foundation         = scene.model == ModelKind::foundation;
-      refuse_if(!scene.implant.geometry().has_closed_forms(),
+      refuse_if(!scene.implant.geometry().has_closed_forms,
                 "Implant / Shape",
                 "closed forms are for the flat disk of a coin");
       const auto pattern = scene.interface.bonding_of_law().pattern;

@@ -5,7 +5,6 @@
 #include <debond/models/simulation.h>
 #include <debond/output/checkpoint.h>
 #include <debond/output/field_output.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -479,7 +478,7 @@ namespace Debond
         << times.front() << " to " << times.back() << '\n';
     for (const Warning &warning : simulation.warnings())
       out << "warning: " << warning.text << '\n';
-    if (scene.implant.geometry().has_closed_forms())
+    if (scene.implant.geometry().has_closed_forms)
       print_forecast(scene, out);
   }
 } // namespace Debond

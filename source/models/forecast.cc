@@ -1,6 +1,5 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/forecast.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
@@ -90,7 +89,7 @@ namespace Debond
   {
     // energy that a jump has released is not in the closed form, and a path may
     // end anywhere
-    if (!scene.implant.geometry().has_closed_forms() ||
+    if (!scene.implant.geometry().has_closed_forms ||
         rows.back().released_energy_Nmm > 0. || scene.load_steps.follow_path)
       return "";
     // points that lie badly or are few, and a face of plane pieces, which is

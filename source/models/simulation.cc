@@ -1,5 +1,4 @@
 #include <debond/models/simulation.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -44,7 +43,7 @@ namespace Debond
       std::vector<Warning> warnings = scene.warnings();
       const auto          &report   = interface.bonding().report();
       const auto           bonding  = scene.interface.bonding_of_law();
-      const auto box = scene.implant.geometry().box_of_face(scene.implant);
+      const auto           box      = scene.implant.geometry().box_of_face();
       if (report.mean == 0. &&
           bonding.initial_bonding * bonding.bonded_fraction > 0.)
         warnings.push_back({"nothing bonded",
@@ -268,7 +267,7 @@ namespace Debond
     settings.phi_only_falls =
       interface.slave_side() == Side::implant ||
       scene.interface.bonding.pattern == BondingPatternKind::homogeneous;
-    const double area         = shape.geometry().area(shape);
+    const double area         = shape.geometry().area;
     settings.contact_area_mm2 = area > 0. ? area : interface.implant_area();
     settings.phase_times      = scene.load_steps.times;
     return settings;
@@ -551,7 +550,7 @@ namespace Debond
       0. - reaction[ChuckComponent::translation_z]; // no negative zero
     // The mean pressure refers to the area of the undeformed contact face. In a
     // bore it is no matter of the axial force.
-    row.pressure_MPa = scene.implant.geometry().is_in_bore(scene.implant) ?
+    row.pressure_MPa = scene.implant.geometry().is_in_bore() ?
                          summary.pressure :
                          row.force_N / interface.implant_area();
     // Sums over the quadrature points, by area: the mean bonding state of Eq.

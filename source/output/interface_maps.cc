@@ -2,7 +2,6 @@
 #include <debond/output/interface_maps.h>
 #include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/point.h>
@@ -53,10 +52,11 @@ namespace Debond
     : wanted(scene.output.report && scene.model == ModelKind::finite_elements)
     , radius(scene.implant.characteristic_radius())
     , is_mesh(scene.implant.mesh != nullptr)
-    , has_face_at([implant = scene.implant](const Eigen::Vector2d &place) {
-      return implant.geometry().has_face_at(implant, place);
-    })
-    , box(scene.implant.geometry().box_of_face(scene.implant))
+    , has_face_at(
+        [face = scene.implant.geometry()](const Eigen::Vector2d &place) {
+          return face.has_face_at(place);
+        })
+    , box(scene.implant.geometry().box_of_face())
     , pulls(scene.interface.joint()->pulls())
     , n(scene.interface.slave == Side::implant ?
           scene.interface.points_per_element(scene.bone, scene.implant).size() :

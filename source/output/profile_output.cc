@@ -3,7 +3,6 @@
 #include <debond/output/profile_output.h>
 #include <debond/output/result_files.h>
 #include <debond/scene/scene.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/point.h>
@@ -71,7 +70,7 @@ namespace Debond
       if (point.faces_implant)
         {
           const auto &X           = point.X;
-          const auto  place       = implant.geometry().on_face(implant, X);
+          const auto  place       = implant.geometry().on_face(X);
           const auto &trial       = point.trial;
           const auto  traction    = interface.traction(point);
           const auto  coefficient = interface.friction(point);

@@ -1,6 +1,5 @@
 #include <debond/input/entry_table.h>
 #include <debond/scene/scene.h>
-#include <debond/shapes/body_geometry.h>
 
 #include <algorithm>
 #include <map>
@@ -20,7 +19,7 @@ namespace Debond
         if (is_read)
           names.push_back(name);
       };
-      const std::vector<std::string> sizes = scene.implant.geometry().entries();
+      const std::vector<std::string> sizes = scene.implant.shape_row().entries;
       for (const std::string &size :
            {std::string("Radius"), std::string("Height")})
         add(std::find(sizes.begin(), sizes.end(), size) != sizes.end(),

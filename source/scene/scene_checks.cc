@@ -3,7 +3,6 @@
 #include <debond/interface/bonding_pattern.h>
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/support/number_text.h>
 
 #include <cmath>
@@ -17,22 +16,20 @@ namespace Debond
     void
     check_faces(const BodyParameters &bone, const BodyParameters &implant)
     {
-      if (implant.geometry().is_in_bore(implant) &&
-          bone.geometry().is_lattice())
+      if (implant.geometry().is_in_bore() && bone.shape_row().is_lattice())
         throw EntryError("Implant / Shape",
-                         "a " + implant.geometry().name() +
-                           " is in the bone, and a " + bone.geometry().name() +
+                         "a " + implant.shape_row().name +
+                           " is in the bone, and a " + bone.shape_row().name +
                            " is below it: expected Bone / Shape = " +
-                           (implant.geometry().centre_of_sphere(implant) ?
-                              "cavity" :
-                              "sleeve"));
+                           (implant.geometry().centre_of_sphere ? "cavity" :
+                                                                  "sleeve"));
       for (unsigned int d = 0; d < 2; ++d)
         if (implant.width(d) > bone.width(d))
-          throw EntryError("Implant / " + implant.geometry().entries().front(),
+          throw EntryError("Implant / " + implant.shape_row().entries.front(),
                            "the implant is " + to_text(implant.width(d)) +
                              " mm wide in " + "xy"[d] +
                              ", wider than the bone below it (Bone / " +
-                             bone.geometry().entries().front() + ": " +
+                             bone.shape_row().entries.front() + ": " +
                              to_text(bone.width(d)) + " mm)");
     }
 
@@ -99,9 +96,9 @@ namespace Debond
         {
           throw EntryError(entry, error.what());
         }
-      if (moves && !scene.implant.geometry().is_in_bore(scene.implant))
+      if (moves && !scene.implant.geometry().is_in_bore())
         throw EntryError(entry,
-                         "a " + scene.implant.geometry().name() +
+                         "a " + scene.implant.shape_row().name +
                            " is in no bore: expected 0",
                          scene.interface.interference);
       if (moves && scene.interface.joint()->pulls() &&
@@ -311,17 +308,13 @@ namespace Debond
           throw EntryError(section + " / Shape",
                            "Model = auto makes its own meshes: expected Model "
                            "= finite elements, or another shape");
-        if (model == ModelKind::automatic && body.is_fitted())
-          throw EntryError(section + " / Cells",
-                           "Model = auto makes its own cells: expected "
-                           "numbers");
       }
     if (bone.is_fitted() && implant.shape != BodyShape::coin &&
         implant.shape != BodyShape::cap)
       throw EntryError("Bone / Cells",
                        "cells are fitted to the rim of a coin or a cap, and "
                        "Implant / Shape is " +
-                         implant.geometry().name() + ": expected numbers");
+                         implant.shape_row().name + ": expected numbers");
     interface.check(implant);
     check_bonding_pattern(interface.bonding,
                           implant,

@@ -1,6 +1,5 @@
 #include <debond/input/entry_table.h>
 #include <debond/scene/scene.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
@@ -20,7 +19,7 @@ namespace Debond
     {
       const auto &face = scene.bone.mesh ? scene.bone.mesh->box_of_face :
                                            dealii::BoundingBox<3>();
-      return !scene.implant.geometry().is_in_bore(scene.implant) &&
+      return !scene.implant.geometry().is_in_bore() &&
              face.side_length(2) <= 0.25 * face.side_length(0);
     }
 
@@ -322,7 +321,7 @@ namespace Debond
              " mm: lengths are mm, stiffnesses MPa/mm");
       // Soft bodies may be meant to be pressed by little.
       const double p = push / (implant.width(0) * implant.width(1) *
-                               implant.geometry().share_of_rectangle());
+                               implant.geometry().share_of_rectangle);
       note(z.loaded && push > 0. && has_size(scene) &&
              p < std::min({1e-3,
                            1e-6 * bone.young_modulus,
@@ -356,7 +355,7 @@ namespace Debond
                                bone.softest_modulus(),
                    share = h * bone.cell_width(1 - d) /
                            (implant.width(0) * implant.width(1) *
-                            implant.geometry().share_of_rectangle()),
+                            implant.geometry().share_of_rectangle),
                    ripple = share * stiffness / (1. + stiffness);
       note(!bone.is_rigid() && way > 0.5 * h && ripple > 0.02,
            "cells under the rim",

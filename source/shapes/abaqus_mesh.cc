@@ -19,6 +19,34 @@ namespace Debond
 {
   namespace
   {
+    /** Places of the 8 or 20 nodes of a hexahedron, in the order of Abaqus:
+     *  corners around the bottom and the top, then the middles of the edges
+     *  around them and between them. */
+    const std::vector<unsigned int> places_of_nodes{0,  1,  3,  2,  4,  5,  7,
+                                                    6,  10, 9,  11, 8,  14, 13,
+                                                    15, 12, 16, 17, 19, 18};
+
+
+
+    std::string
+    upper(const std::string &text)
+    {
+      return boost::to_upper_copy(text, std::locale::classic());
+    }
+
+
+
+    std::vector<std::string>
+    items_of(const std::string &line)
+    {
+      std::vector<std::string> items = split(line, ",");
+      if (items.size() > 1 && items.back().empty())
+        items.pop_back(); // a comma at the end
+      return items;
+    }
+
+
+
     /** What is read of a file of Abaqus, line by line. */
     class AbaqusFile
     {
@@ -74,16 +102,15 @@ namespace Debond
         parameters.clear();
         const auto        words  = items_of(line);
         const std::string before = section;
-        section = boost::to_upper_copy(words[0], std::locale::classic());
+        section                  = upper(words[0]);
         for (auto word = words.begin() + 1; word != words.end(); ++word)
           {
             const auto  equals = std::min(word->find('='), word->size());
             std::string value =
               word->substr(std::min(equals + 1, word->size()));
             boost::trim_if(value, boost::is_any_of(" \t\""));
-            parameters[boost::to_upper_copy(boost::trim_copy(
-                                              word->substr(0, equals)),
-                                            std::locale::classic())] = value;
+            parameters[upper(boost::trim_copy(word->substr(0, equals)))] =
+              value;
           }
         // loads and output: nothing there makes nodes or elements
         if (before == "*STEP" && section != "*END STEP")
@@ -96,7 +123,7 @@ namespace Debond
           begin_elements();
         if (section == "*SURFACE")
           {
-            const std::string type = upper("TYPE");
+            const std::string type = parameter("TYPE");
             if (!type.empty() && type != "ELEMENT")
               section.clear();
             else
@@ -128,7 +155,7 @@ namespace Debond
         for (const auto &[name, value] : parameters)
           if ((section == "*NODE" || section == "*ELEMENT") && name != "TYPE" &&
               name != "NSET" && name != "ELSET" &&
-              !(name == "SYSTEM" && upper(name) == "R"))
+              !(name == "SYSTEM" && parameter(name) == "R"))
             refuse(section + ", " + name + "=" + value +
                    " is not understood: expected numbers and x, y, z of nodes, "
                    "and the nodes of elements, in this file");
@@ -137,7 +164,7 @@ namespace Debond
       void
       begin_elements()
       {
-        const std::string type   = upper("TYPE");
+        const std::string type   = parameter("TYPE");
         const auto        begins = [&](const char *with) {
           return boost::starts_with(type, with);
         };
@@ -174,14 +201,12 @@ namespace Debond
             // 1.5D0 is Fortran's
             const auto number =
               d + 1 < items.size() ?
-                read_number(boost::replace_all_copy(
-                  boost::to_upper_copy(items[d + 1], std::locale::classic()),
-                  "D",
-                  "E")) :
+                read_number(
+                  boost::replace_all_copy(upper(items[d + 1]), "D", "E")) :
                 std::nullopt;
             if (!number)
               refuse("expected a node, its number and x, y, z");
-            x[d] = number.value_or(0.);
+            x[d] = *number;
           }
         if (!node_number.emplace(integer(items[0]), mesh.nodes.size()).second)
           refuse("the second node " + items[0] +
@@ -194,7 +219,7 @@ namespace Debond
       {
         if (nodes_of_element == 0)
           {
-            ++mesh.other_solids["elements " + upper("TYPE")];
+            ++mesh.other_solids["elements " + parameter("TYPE")];
             return;
           }
         for (const auto &item : items)
@@ -217,30 +242,27 @@ namespace Debond
           refuse("the second element " + std::to_string(unfinished[0]) +
                  ": expected one part only, each number once");
         if (parameters.count("ELSET"))
-          sets[upper("ELSET")].push_back(unfinished[0]);
-        mesh.add_hexahedron(nodes, common_places());
+          sets[parameter("ELSET")].push_back(unfinished[0]);
+        mesh.add_hexahedron(nodes, places_of_nodes);
         unfinished.clear();
       }
 
       void
       read_set(const std::vector<std::string> &items)
       {
-        auto &set = sets[upper("ELSET")];
+        auto &set = sets[parameter("ELSET")];
         if (parameters.count("GENERATE"))
           {
             const long step = items.size() > 2 ? integer(items[2]) : 1;
             if (items.size() < 2 || step < 1)
               refuse("expected the first and the last element, and a step");
-            else
-              for (long e = integer(items[0]); e <= integer(items[1]);
-                   e += step)
-                set.push_back(e);
+            for (long e = integer(items[0]); e <= integer(items[1]); e += step)
+              set.push_back(e);
             return;
           }
         for (const auto &item : items)
           {
-            const auto other =
-              sets.find(boost::to_upper_copy(item, std::locale::classic()));
+            const auto other = sets.find(upper(item));
             if (other == sets.end())
               set.push_back(integer(item));
             else
@@ -256,17 +278,11 @@ namespace Debond
       {
         static const std::map<std::string, unsigned int> faces{
           {"S1", 4}, {"S2", 5}, {"S3", 2}, {"S4", 1}, {"S5", 3}, {"S6", 0}};
-        const auto face =
-          faces.find(items.size() < 2 ?
-                       "" :
-                       boost::to_upper_copy(items[1], std::locale::classic()));
+        const auto face = faces.find(items.size() < 2 ? "" : upper(items[1]));
         if (face == faces.end())
           refuse("expected an element or a set of them and a face, S1 to S6");
-        else
-          surfaces[parameters["NAME"]].push_back(
-            {boost::to_upper_copy(items[0], std::locale::classic()),
-             face->second,
-             line_number});
+        surfaces[parameters["NAME"]].push_back(
+          {upper(items[0]), face->second, line_number});
       }
 
       void
@@ -282,40 +298,18 @@ namespace Debond
             const auto found = element_number.find(element);
             if (found == element_number.end())
               refuse("there is no hexahedron " + std::to_string(element));
-            else
-              {
-                faces.emplace_back();
-                for (unsigned int v = 0; v < 4; ++v)
-                  faces.back()[v] =
-                    mesh.hexahedra[found->second][dealii::GeometryInfo<
-                      3>::face_to_cell_vertices(sides.face, v)];
-              }
+            auto &face = faces.emplace_back();
+            for (unsigned int v = 0; v < 4; ++v)
+              face[v] = mesh.hexahedra[found->second][dealii::GeometryInfo<
+                3>::face_to_cell_vertices(sides.face, v)];
           }
       }
 
-      static std::vector<std::string>
-      items_of(const std::string &line)
-      {
-        std::vector<std::string> items{""};
-        for (const char c : line)
-          if (c == ',')
-            items.emplace_back();
-          else
-            items.back() += c;
-        for (auto &item : items)
-          boost::trim(item, std::locale::classic());
-        if (items.size() > 1 && items.back().empty())
-          items.pop_back(); // a comma at the end
-        return items;
-      }
-
       std::string
-      upper(const std::string &parameter) const
+      parameter(const std::string &name) const
       {
-        const auto found = parameters.find(parameter);
-        return found == parameters.end() ?
-                 "" :
-                 boost::to_upper_copy(found->second, std::locale::classic());
+        const auto found = parameters.find(name);
+        return found == parameters.end() ? "" : upper(found->second);
       }
 
       long
@@ -324,10 +318,7 @@ namespace Debond
         const auto number = read_number(item);
         if (!number || *number != std::floor(*number) || *number < 0 ||
             *number > 1e12)
-          {
-            refuse("'" + item + "' is no number of a node or an element");
-            return 0;
-          }
+          refuse("'" + item + "' is no number of a node or an element");
         return static_cast<long>(*number);
       }
 

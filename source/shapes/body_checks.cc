@@ -1,4 +1,4 @@
-#include <debond/shapes/body_geometry.h>
+#include <debond/input/entry_table.h>
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
@@ -15,10 +15,6 @@ namespace Debond
 {
   namespace
   {
-    using EntryCheck = BodyGeometry::EntryCheck;
-
-
-
     void
     check_number_of_cells(const BodyParameters &body, const EntryCheck &refuse)
     {
@@ -126,72 +122,93 @@ namespace Debond
 
 
 
-    /** An entry of another shape that was changed was meant to do something:
-     *  refuse it rather than ignore it. */
+    std::vector<SceneEntry>
+    entries_of(BodyParameters body, const bool is_bone)
+    {
+      EntryTable table;
+      if (is_bone)
+        body.declare_bone(table);
+      else
+        body.declare_implant(table);
+      return table.entries();
+    }
+
+
+
+    bool
+    has(const ShapeRow &shape, const std::string &entry)
+    {
+      return std::count(shape.entries.begin(), shape.entries.end(), entry) > 0;
+    }
+
+
+
+    /** Refuses an entry of another shape that was changed: it was meant to do
+     *  something. */
     void
     check_shape(const BodyParameters &body,
-                const BodyParameters &usual,
+                const bool            is_bone,
                 const EntryCheck     &refuse)
     {
-      const BodyGeometry            &geometry = body.geometry();
-      const std::vector<std::string> own      = geometry.entries();
-      for (const auto &[entry, is_set] :
-           {std::pair("Size", body.size != usual.size),
-            std::pair("Radius", body.radius != usual.radius),
-            std::pair("Height",
-                      body.height != usual.height ||
-                        body.sleeve_height != usual.sleeve_height),
-            std::pair("Cap radius", body.cap_radius != usual.cap_radius),
-            std::pair("Inner radius", body.inner_radius != usual.inner_radius),
-            std::pair("Outer radius", body.outer_radius != usual.outer_radius),
-            std::pair("Ends", body.ends != usual.ends),
-            std::pair("Support radius",
-                      body.support_radius != usual.support_radius),
-            std::pair("Taper angle", body.taper_angle != usual.taper_angle),
-            std::pair("Pitch", body.pitch != usual.pitch),
-            std::pair("Thread depth", body.thread_depth != usual.thread_depth),
-            std::pair("Starts", body.starts != usual.starts),
-            std::pair("Mesh file", body.mesh_file != usual.mesh_file)})
-        refuse(is_set && std::find(own.begin(), own.end(), entry) == own.end(),
-               entry,
-               "it has no meaning for this Shape, " + geometry.name() +
-                 ": give " + boost::join(own, " and "));
+      const BodyParameters usual =
+        is_bone ? BodyParameters() : BodyParameters::default_implant();
+      const ShapeRow &own     = body.shape_row();
+      const auto      entries = entries_of(body, is_bone),
+                 others       = entries_of(usual, is_bone);
+      for (std::size_t i = 0; i < entries.size(); ++i)
+        if (const std::string &name = entries[i].name;
+            entries[i].value != others[i].value && !has(own, name))
+          refuse(std::any_of(shape_rows().begin(),
+                             shape_rows().end(),
+                             [&](const ShapeRow &shape) {
+                               return has(shape, name);
+                             }),
+                 name,
+                 "it has no meaning for this Shape, " + own.name + ": give " +
+                   boost::join(own.entries, " and "));
       refuse(body.shape == BodyShape::file && body.cells != usual.cells,
              "Cells",
              "the cells are those of a file: leave it out");
-      geometry.check(body, refuse);
+      own.check(body, refuse);
     }
   } // namespace
+
+
+
+  EntryCheck
+  refusal_in(const std::string &section)
+  {
+    return [section](const bool         is_mistake,
+                     const std::string &entry,
+                     const std::string &message) {
+      if (is_mistake)
+        throw EntryError(section + " / " + entry, message);
+    };
+  }
 
 
 
   void
   BodyParameters::check(const std::string &section) const
   {
-    const EntryCheck refuse = [&](const bool         is_mistake,
-                                  const std::string &entry,
-                                  const std::string &message) {
-      if (is_mistake)
-        throw EntryError(section + " / " + entry, message);
-    };
-    check_shape(*this,
-                section == "Bone" ? BodyParameters() : default_implant(),
-                refuse);
+    const bool       is_bone = section == "Bone";
+    const EntryCheck refuse  = refusal_in(section);
+    check_shape(*this, is_bone, refuse);
     check_number_of_cells(*this, refuse);
     if (is_fitted())
-      check_fitted_cells(*this, section == "Bone", refuse);
-    else if (geometry().is_lattice())
+      check_fitted_cells(*this, is_bone, refuse);
+    else if (shape_row().is_lattice())
       check_cells(*this, refuse);
   }
 
 
 
   void
-  refuse_entries_of_lattices(const BodyParameters           &body,
-                             const std::string              &reason,
-                             const BodyGeometry::EntryCheck &refuse)
+  refuse_entries_of_lattices(const BodyParameters &body,
+                             const std::string    &reason,
+                             const EntryCheck     &refuse)
   {
-    const bool is_fitted = body.geometry().is_lattice();
+    const bool is_fitted = body.shape_row().is_lattice();
     for (const auto &[is_set, entry, expected] :
          {std::make_tuple(!is_fitted && body.element == ElementKind::spline,
                           "Element",
@@ -206,5 +223,20 @@ namespace Debond
                           is_fitted ? "auto or direct" :
                                       "auto, direct or multigrid")})
       refuse(is_set, entry, reason + ": expected " + expected);
+  }
+
+
+
+  void
+  check_cells_around(const BodyParameters &body,
+                     const bool            has_square,
+                     const EntryCheck     &refuse)
+  {
+    refuse_entries_of_lattices(body, "this shape has no such cells", refuse);
+    refuse(body.cells[0] < 8 || (has_square && body.cells[0] % 4 != 0),
+           "Cells",
+           "cells around, radial and along: expected " +
+             std::string(has_square ? "8, 12, 16, ... around" :
+                                      "at least 8 around"));
   }
 } // namespace Debond

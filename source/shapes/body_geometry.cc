@@ -4,80 +4,77 @@
 
 namespace Debond
 {
-  // Each shape's own file defines it; it is named here, and nowhere else.
-  const BodyGeometry &
-  coin_geometry();
-  const BodyGeometry &
-  cap_geometry();
-  const BodyGeometry &
-  block_geometry();
-  const BodyGeometry &
-  mesh_geometry();
-  const BodyGeometry &
-  pin_geometry();
-  const BodyGeometry &
-  sleeve_geometry();
-  const BodyGeometry &
-  taper_geometry();
-  const BodyGeometry &
-  screw_geometry();
-  const BodyGeometry &
-  cup_geometry();
-  const BodyGeometry &
-  cavity_geometry();
-  const BodyGeometry &
-  ring_geometry();
-
-  const std::vector<const BodyGeometry *> &
-  body_geometries()
+  BodyGeometry
+  BodyGeometry::round(const double radius, const double height)
   {
-    static const std::vector<const BodyGeometry *> all{&coin_geometry(),
-                                                       &cap_geometry(),
-                                                       &block_geometry(),
-                                                       &mesh_geometry(),
-                                                       &pin_geometry(),
-                                                       &sleeve_geometry(),
-                                                       &taper_geometry(),
-                                                       &screw_geometry(),
-                                                       &cup_geometry(),
-                                                       &cavity_geometry(),
-                                                       &ring_geometry()};
-    return all;
+    BodyGeometry result;
+    result.width        = {{2. * radius, 2. * radius}};
+    result.reach        = radius;
+    result.thickness    = height;
+    result.chuck_height = height;
+    result.is_round     = true;
+    return result;
   }
 
 
 
-  double
-  BodyGeometry::reach(const BodyParameters &body) const
+  Eigen::Vector3d
+  BodyGeometry::outwards(const Eigen::Vector3d &X) const
   {
-    return std::hypot(0.5 * width(body, 0), 0.5 * width(body, 1));
+    if (centre_of_sphere)
+      return (X - Eigen::Vector3d(0., 0., *centre_of_sphere)) / radius;
+    return Eigen::Vector3d(X[0], X[1], 0.) / side(X[2], std::atan2(X[1], X[0]));
+  }
+
+
+
+  // On a sphere as far from the middle as along it from its lowest point.
+  Eigen::Vector2d
+  BodyGeometry::on_face(const Eigen::Vector3d &X) const
+  {
+    if (side)
+      return {radius * std::atan2(X[1], X[0]), X[2]};
+    const double across = std::hypot(X[0], X[1]);
+    if (!centre_of_sphere || across == 0.)
+      return X.head<2>();
+    return radius * std::atan2(across, *centre_of_sphere - X[2]) / across *
+           X.head<2>();
   }
 
 
 
   std::array<Eigen::Vector2d, 2>
-  BodyGeometry::box_of_face(const BodyParameters &body) const
+  BodyGeometry::box_of_face() const
   {
-    const Eigen::Vector2d half(0.5 * width(body, 0), 0.5 * width(body, 1));
+    if (side)
+      return {{{-M_PI * radius, -thickness}, {M_PI * radius, 0.}}};
+    const Eigen::Vector2d half =
+      centre_of_sphere ? Eigen::Vector2d::Constant(
+                           radius * std::acos(*centre_of_sphere / radius)) :
+                         Eigen::Vector2d(0.5 * width[0], 0.5 * width[1]);
     return {{-half, half}};
   }
 
 
 
   bool
-  BodyGeometry::has_face_at(const BodyParameters  &body,
-                            const Eigen::Vector2d &place) const
+  BodyGeometry::has_face_at(const Eigen::Vector2d &place) const
   {
-    return !is_round() || place.norm() <= box_of_face(body)[1][0];
+    return !is_round || place.cwiseQuotient(box_of_face()[1]).norm() <= 1.;
   }
 
 
 
-  std::shared_ptr<const BodyMesh>
-  BodyGeometry::make_mesh(const BodyParameters &,
-                          const BodyParameters &,
-                          const std::string &) const
+  const std::vector<ShapeRow> &
+  shape_rows()
   {
-    return nullptr;
+    static const auto all = []() {
+      std::vector<ShapeRow> result;
+      for (const auto &group :
+           {lattice_shapes(), file_shapes(), revolved_shapes(), bowl_shapes()})
+        result.insert(result.end(), group.begin(), group.end());
+      return result;
+    }();
+    return all;
   }
 } // namespace Debond

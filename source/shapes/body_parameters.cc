@@ -1,5 +1,4 @@
 #include <debond/input/entry_table.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/shapes/modulus_field.h>
@@ -14,28 +13,10 @@
 
 namespace Debond
 {
-  const BodyGeometry &
-  BodyParameters::geometry() const
+  const ShapeRow &
+  BodyParameters::shape_row() const
   {
-    return *body_geometries()[static_cast<unsigned int>(shape)];
-  }
-
-  double
-  BodyParameters::thickness() const
-  {
-    return geometry().thickness(*this);
-  }
-
-  double
-  BodyParameters::chuck_height() const
-  {
-    return geometry().chuck_height(*this);
-  }
-
-  double
-  BodyParameters::width(const unsigned int direction) const
-  {
-    return geometry().width(*this, direction);
+    return shape_rows()[static_cast<unsigned int>(shape)];
   }
 
 
@@ -66,45 +47,6 @@ namespace Debond
   {
     static const char *const names[]{"free", "slides z", "axial", "held"};
     return names[static_cast<unsigned int>(ends)];
-  }
-
-
-
-  void
-  BodyParameters::make_mesh(const std::string    &section,
-                            const BodyParameters &implant)
-  {
-    mesh.reset();
-    mesh = geometry().make_mesh(*this, implant, section);
-  }
-
-
-
-  // Towards the rim, at both sides of it, as far as the middle and the sides of
-  // the block: the pressure has a kink or a singularity there.
-  std::vector<double>
-  BodyParameters::lateral_fractions(const unsigned int direction) const
-  {
-    const unsigned int  n = cells[direction], under = cells_under_implant;
-    std::vector<double> result;
-    if (under == 0)
-      return KnotVector::graded(1, n, lateral_grading).breakpoints();
-    const double       half = 0.5 * width(direction), R = rim[direction];
-    const unsigned int beside = (n - under) / 2;
-    for (unsigned int i = 0; i <= n; ++i)
-      {
-        // cells from the middle, in halves
-        const double from_middle = std::abs(i - 0.5 * n) - 0.5 * under;
-        const double x =
-          from_middle <= 0. ?
-            R * (1. - std::pow(-2. * from_middle / under, rim_grading)) :
-            R + (half - R) * std::pow(from_middle / beside, rim_grading);
-        result.push_back(2 * i < n ? 0.5 * (1. - x / half) :
-                                     0.5 * (1. + x / half));
-      }
-    result.front() = 0.;
-    result.back()  = 1.;
-    return result;
   }
 
 
@@ -331,19 +273,19 @@ namespace Debond
                        "centre at the origin; pin, taper, screw and cup are "
                        "in the bone. The chuck, which is rigid, holds the "
                        "flat top. ";
-    for (const BodyGeometry *const each : body_geometries())
-      if (is_bone ? each->is_for_bone() : each->is_for_implant())
+    for (const ShapeRow &each : shape_rows())
+      if (is_bone ? each.is_for_bone : each.is_for_implant)
         {
-          names += (names.empty() ? "" : " | ") + each->name();
-          text += "`" + each->name() + "': " + each->description() + ". ";
+          names += (names.empty() ? "" : " | ") + each.name;
+          text += "`" + each.name + "': " + each.description + ". ";
         }
     text.pop_back();
     table.add(
       "Shape",
-      geometry().name(),
+      shape_row().name,
       [this](const std::string &name) {
-        for (unsigned int k = 0; k < body_geometries().size(); ++k)
-          if (body_geometries()[k]->name() == name)
+        for (unsigned int k = 0; k < shape_rows().size(); ++k)
+          if (shape_rows()[k].name == name)
             shape = static_cast<BodyShape>(k);
       },
       Allowed::choice(names),
@@ -541,16 +483,5 @@ namespace Debond
       "Interpolation of the contact face. `nurbs': biquadratic NURBS with "
       "normals that are continuous, or nearly so; the disk of a coin is an "
       "exact circle. `bilinear': the faces of the cells, for comparison.");
-  }
-
-
-
-  NurbsSurface
-  make_contact_surface(const BodyParameters &body, const Side side)
-  {
-    const NurbsSurface face = body.geometry().contact_face(body, side);
-    return body.contact_surface == SurfaceKind::bilinear && face.degree() > 1 ?
-             face.bilinear_interpolant() :
-             face;
   }
 } // namespace Debond

@@ -8,8 +8,6 @@ namespace Debond
   namespace
   {
     using Point = dealii::Point<3>;
-    using Key   = CellCollector::Key;
-    using Place = CellCollector::Place;
   } // namespace
 
 
@@ -65,18 +63,16 @@ namespace Debond
   {
     /** Keys: halves of layers from the inner to the outer face, and the place
      *  on the surface of half a cube, or in it where the core is. */
-    class MeshOfBowl
+    class MeshOfBowl : public CellCollector
     {
     public:
       explicit MeshOfBowl(const Bowl &bowl);
-
-      CellCollector collected;
 
     private:
       Point
       on_face(const BowlFace &face, const Key &key) const;
       Point
-      position(const Key &key) const;
+      position(const Key &key) const override;
       void
       add_layers(const Key                &first,
                  const std::array<int, 2> &axes,
@@ -85,14 +81,15 @@ namespace Debond
       add_core();
 
       const Bowl        &bowl;
+      const BowlFace    &sphere;       ///< the contact face
       const unsigned int across, deep; ///< cells of half the cube
     };
 
 
 
     MeshOfBowl::MeshOfBowl(const Bowl &bowl)
-      : collected([this](const Key &key) { return position(key); })
-      , bowl(bowl)
+      : bowl(bowl)
+      , sphere(bowl.contact_is_inner ? bowl.inner : bowl.outer)
       , across(bowl.cells[0] / 4)
       , deep(bowl.cells[2])
     {
@@ -109,9 +106,8 @@ namespace Debond
         }
       if (bowl.is_solid)
         add_core();
-      const BowlFace &sphere = bowl.contact_is_inner ? bowl.inner : bowl.outer;
-      collected.stored.sphere_centre = Point(0., 0., sphere.centre);
-      collected.stored.sphere_radius = sphere.radius;
+      stored.sphere_centre = Point(0., 0., sphere.centre);
+      stored.sphere_radius = sphere.radius;
     }
 
 
@@ -159,36 +155,32 @@ namespace Debond
       const bool         is_at_rim = axes[1] == 3 && first[3] == 2 * deep - 2;
       for (unsigned int layer = 0; layer < n; ++layer)
         {
-          collected.add({{2 * layer, 0, 0}}, [&](const Place &place) {
+          add({{2 * layer, 0, 0}}, [&](const Place &place) {
             Key key = first;
             key[0]  = place[0];
             key[axes[0]] += place[1];
             key[axes[1]] += place[2];
             return key;
           });
-          const bool is_inner = layer == 0 && !bowl.is_solid,
-                     is_outer = layer == n - 1;
           if (is_at_rim)
-            collected.name(bowl.rim, {4, 5, 6, 7});
-          if (is_inner)
-            collected.name(bowl.contact_is_inner ? "contact" : opposite,
-                           {0, 2, 4, 6});
-          if (is_outer)
-            collected.name(bowl.contact_is_inner ? opposite : "contact",
-                           {1, 3, 5, 7});
-          const unsigned int c = bowl.contact_is_inner ? 0 : 1;
-          if (bowl.contact_is_inner ? is_inner : is_outer)
-            for (const auto &[p, q] : {std::pair(c, c + 2),
-                                       std::pair(c, c + 4),
-                                       std::pair(c + 2, c + 6),
-                                       std::pair(c + 4, c + 6)})
-              collected.add_arc(p,
-                                q,
-                                (bowl.contact_is_inner ? bowl.inner :
-                                                         bowl.outer)
-                                  .weight(collected.corner(p),
-                                          collected.corner(q),
+            name(bowl.rim, {{4, 5, 6, 7}});
+          for (const unsigned int c : {0U, 1U}) // the inner and the outer face
+            if (c == 0 ? layer == 0 && !bowl.is_solid : layer == n - 1)
+              {
+                const bool is_contact = bowl.contact_is_inner == (c == 0);
+                name(is_contact ? "contact" : opposite,
+                     {{c, c + 2, c + 4, c + 6}});
+                for (const auto &[p, q] : {std::pair(c, c + 2),
+                                           std::pair(c, c + 4),
+                                           std::pair(c + 2, c + 6),
+                                           std::pair(c + 4, c + 6)})
+                  if (is_contact)
+                    add_arc(p,
+                            q,
+                            sphere.weight(corner(p),
+                                          corner(q),
                                           is_at_rim && p == c + 4));
+              }
         }
     }
 
@@ -201,11 +193,11 @@ namespace Debond
         for (unsigned int j = 0; j < 2 * across; j += 2)
           for (unsigned int k = 0; k < 2 * deep; k += 2)
             {
-              collected.add({{i, j, k}}, [](const Place &place) {
+              add({{i, j, k}}, [](const Place &place) {
                 return Key{{0, place[0], place[1], place[2]}};
               });
               if (k == 2 * deep - 2)
-                collected.name(bowl.rim, {4, 5, 6, 7});
+                name(bowl.rim, {{4, 5, 6, 7}});
             }
     }
   } // namespace
@@ -215,6 +207,6 @@ namespace Debond
   StoredMesh
   mesh_of_bowl(const Bowl &bowl)
   {
-    return std::move(MeshOfBowl(bowl).collected.stored);
+    return std::move(MeshOfBowl(bowl).stored);
   }
 } // namespace Debond

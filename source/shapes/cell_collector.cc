@@ -27,16 +27,14 @@ namespace Debond
 
 
   void
-  CellCollector::name(const std::string                  &group,
-                      std::initializer_list<unsigned int> corners)
+  CellCollector::name(const std::string                 &group,
+                      const std::array<unsigned int, 4> &corners)
   {
     if (group == "free")
       return;
-    std::array<unsigned int, 4> face;
-    unsigned int                i = 0;
-    for (const unsigned int corner : corners)
-      face[i++] = stored.hexahedra.back()[corner];
-    stored.groups[group].push_back(face);
+    auto &face = stored.groups[group].emplace_back();
+    for (unsigned int v = 0; v < 4; ++v)
+      face[v] = stored.hexahedra.back()[corners[v]];
   }
 
 
@@ -47,7 +45,8 @@ namespace Debond
                          const double       weight)
   {
     const auto &nodes = stored.hexahedra.back();
-    stored.arcs.push_back({{{nodes[corner], nodes[other]}}, weight});
+    stored.arcs.emplace_back(
+      std::array<unsigned int, 2>{{nodes[corner], nodes[other]}}, weight);
   }
 
 

@@ -164,12 +164,9 @@ namespace Debond
           for (int n = 0; n < type.n_nodes; ++n)
             for (unsigned int p = 0; p < 27; ++p)
               {
-                bool is_here = true;
-                for (unsigned int d = 0; d < 3; ++d)
-                  is_here = is_here &&
-                            std::abs(type.coordinates[3 * n + d] + 1. -
-                                     2. * places_in_hexahedron()[p][d]) < 0.1;
-                if (is_here)
+                const double *const    x = &type.coordinates[3 * n];
+                const dealii::Point<3> there(x[0] + 1., x[1] + 1., x[2] + 1.);
+                if (there.distance(2. * places_in_hexahedron()[p]) < 0.1)
                   place.push_back(p);
               }
           std::vector<unsigned int> numbers(type.n_nodes);
@@ -204,10 +201,10 @@ namespace Debond
               const ElementType type(types[t]);
               for (std::size_t e = 0; e < elements[t].size(); ++e)
                 {
-                  faces.emplace_back();
-                  faces.back().fill(StoredMesh::none);
+                  auto &face = faces.emplace_back();
+                  face.fill(StoredMesh::none);
                   for (int n = 0; n < std::min(type.n_corners, 4); ++n)
-                    faces.back()[n] = number.at(nodes[t][e * type.n_nodes + n]);
+                    face[n] = number.at(nodes[t][e * type.n_nodes + n]);
                 }
             }
         }

@@ -274,10 +274,10 @@ namespace Debond
                      at_place(x) + " and " + at_place(given.first->second) +
                      ": merge duplicate nodes");
           }
-    for (const StoredMesh::Arc &arc : stored.arcs)
-      mesh->weights[vertices_of({0, 1}, [&](const unsigned int c) {
-        return vertex[arc.ends[c]];
-      })] = arc.weight;
+    for (const auto &[ends, weight] : stored.arcs)
+      mesh->weights[vertices_of({0, 1}, [&ends = ends, this](const auto c) {
+        return vertex[ends[c]];
+      })] = weight;
     mesh->sphere_centre = stored.sphere_centre;
     mesh->sphere_radius = stored.sphere_radius;
     std::vector<Point> on_face;

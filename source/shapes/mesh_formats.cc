@@ -21,36 +21,6 @@ namespace Debond
 
 
 
-  const std::vector<unsigned int> &
-  common_places()
-  {
-    static const std::vector<unsigned int> all = []() {
-      const std::vector<unsigned int> corners{0, 1, 3, 2, 4, 5, 7, 6};
-      std::vector<unsigned int>       places = corners;
-      for (const auto &[a, b] : std::vector<std::pair<int, int>>{{0, 1},
-                                                                 {1, 2},
-                                                                 {2, 3},
-                                                                 {3, 0},
-                                                                 {4, 5},
-                                                                 {5, 6},
-                                                                 {6, 7},
-                                                                 {7, 4},
-                                                                 {0, 4},
-                                                                 {1, 5},
-                                                                 {2, 6},
-                                                                 {3, 7}})
-        for (unsigned int p = 8; p < 20; ++p)
-          if ((places_in_hexahedron()[corners[a]] +
-               places_in_hexahedron()[corners[b]])
-                .distance(2. * places_in_hexahedron()[p]) < 0.1)
-            places.push_back(p);
-      return places;
-    }();
-    return all;
-  }
-
-
-
   void
   StoredMesh::add_hexahedron(const std::vector<unsigned int> &nodes,
                              const std::vector<unsigned int> &places)

@@ -1,108 +1,107 @@
-#include <debond/shapes/body_geometry.h>
+#include <debond/geometry/nurbs_surface.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/shapes/faces_of_mesh.h>
 #include <debond/shapes/mesh_builder.h>
 #include <debond/support/input_error.h>
 
 #include <algorithm>
-#include <string>
+#include <cmath>
 
+// Bodies whose cells are hexahedra of their own, of a file or of their shape.
 namespace Debond
 {
   namespace
   {
-    /** The hexahedra of a file, where the file has them. */
-    class MeshShape : public BodyGeometry
+    // Nothing is known of it before it is read.
+    BodyGeometry
+    geometry_of_file(const BodyParameters &body)
     {
-    public:
-      std::string
-      name() const override
-      {
-        return "file";
-      }
-      std::string
-      description() const override
-      {
-        return "the hexahedra of a Mesh file";
-      }
-      bool
-      is_for_bone() const override
-      {
-        return true;
-      }
-      bool
-      is_lattice() const override
-      {
-        return false;
-      }
-      std::vector<std::string>
-      entries() const override
-      {
-        return {"Mesh file"};
-      }
+      BodyGeometry result;
+      if (!body.mesh)
+        return result;
+      const auto &[lower, upper] = body.mesh->box.get_boundary_points();
+      result.width               = {{body.mesh->box_of_face.side_length(0),
+                                     body.mesh->box_of_face.side_length(1)}};
+      result.reach        = 0.5 * std::hypot(result.width[0], result.width[1]);
+      result.thickness    = std::max(-lower[2], upper[2]);
+      result.chuck_height = upper[2];
+      return result;
+    }
 
-      void
-      check(const BodyParameters &body, const EntryCheck &refuse) const override
-      {
-        const std::string of_file = "the cells are those of a file";
-        refuse_entries_of_lattices(body, of_file, refuse);
-        refuse(body.layer_grading != 1.,
-               "Layer grading",
-               of_file + ": expected 1");
-        refuse(body.mesh && body.mesh->order == 2 &&
-                 body.element == ElementKind::trilinear,
-               "Element",
-               "the cells of the file are of the second order: expected "
-               "quadratic");
-      }
-
-      double
-      width(const BodyParameters &body,
-            const unsigned int    direction) const override
-      {
-        return body.mesh->box_of_face.side_length(direction);
-      }
-      // how far it reaches from z = 0
-      double
-      thickness(const BodyParameters &body) const override
-      {
-        const auto &[lower, upper] = body.mesh->box.get_boundary_points();
-        return std::max(-lower[2], upper[2]);
-      }
-      double
-      chuck_height(const BodyParameters &body) const override
-      {
-        return body.mesh->box.get_boundary_points().second[2];
-      }
-
-      std::shared_ptr<const BodyMesh>
-      make_mesh(const BodyParameters &body,
-                const BodyParameters &,
-                const std::string &section) const override
-      {
-        if (body.mesh_file.empty())
-          throw EntryError(section + " / Shape",
-                           "it needs the name of a file: " + section +
-                             " / Mesh file");
-        return read_mesh_file(body.mesh_file, section + " / Mesh file");
-      }
-
-      NurbsSurface
-      contact_face(const BodyParameters &body, const Side side) const override
-      {
-        const unsigned int degree =
-          body.element == ElementKind::quadratic ? 2 : 1;
-        return contact_surface_of(*body.mesh, degree, side);
-      }
-    };
+    void
+    check_file(const BodyParameters &body, const EntryCheck &refuse)
+    {
+      const std::string of_file = "the cells are those of a file";
+      refuse_entries_of_lattices(body, of_file, refuse);
+      refuse(body.layer_grading != 1.,
+             "Layer grading",
+             of_file + ": expected 1");
+      refuse(body.mesh && body.mesh->order == 2 &&
+               body.element == ElementKind::trilinear,
+             "Element",
+             "the cells of the file are of the second order: expected "
+             "quadratic");
+    }
   } // namespace
 
 
 
-  const BodyGeometry &
-  mesh_geometry()
+  std::vector<ShapeRow>
+  file_shapes()
   {
-    static const MeshShape shape;
-    return shape;
+    return {{"file",
+             "the hexahedra of a Mesh file",
+             true,
+             true,
+             {"Mesh file"},
+             geometry_of_file,
+             check_file,
+             nullptr}};
+  }
+
+
+
+  void
+  BodyParameters::make_mesh(const std::string    &section,
+                            const BodyParameters &implant)
+  {
+    mesh.reset();
+    if (shape == BodyShape::file && mesh_file.empty())
+      throw EntryError(section + " / Shape",
+                       "it needs the name of a file: " + section +
+                         " / Mesh file");
+    if (shape == BodyShape::file)
+      mesh = read_mesh_file(mesh_file, section + " / Mesh file");
+    if (shape_row().cells == nullptr)
+      return;
+    check(section);
+    mesh = MeshBuilder(shape_row().cells(*this, implant),
+                       [&section](const std::string &why) {
+                         throw EntryError(section + " / Cells",
+                                          "no mesh of this shape comes of "
+                                          "them: " +
+                                            why);
+                       })
+             .mesh;
+  }
+
+
+
+  // Circles of shapes are exact, whatever the elements: their faces are of the
+  // second degree. Those of files are as their elements.
+  NurbsSurface
+  make_contact_surface(const BodyParameters &body, const Side side)
+  {
+    const bool is_smooth = body.contact_surface == SurfaceKind::nurbs;
+    if (body.mesh)
+      return contact_surface_of(*body.mesh,
+                                is_smooth &&
+                                    (body.shape != BodyShape::file ||
+                                     body.element == ElementKind::quadratic) ?
+                                  2 :
+                                  1,
+                                side);
+    const NurbsSurface face = body.shape_row().contact_face(body);
+    return is_smooth ? face : face.bilinear_interpolant();
   }
 } // namespace Debond

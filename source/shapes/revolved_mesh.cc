@@ -2,23 +2,20 @@
 #include <debond/shapes/revolved_mesh.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace Debond
 {
   namespace
   {
     using Point = dealii::Point<3>;
-    using Key   = CellCollector::Key;
-    using Place = CellCollector::Place;
 
     /** Nodes are counted from the inner to the outer face, around and along; in
      *  the core across it and along. The first number of a key is 1 there. */
-    class MeshOfRevolution
+    class MeshOfRevolution : public CellCollector
     {
     public:
       explicit MeshOfRevolution(const RevolvedBody &body);
-
-      CellCollector collected;
 
     private:
       Point
@@ -45,7 +42,7 @@ namespace Debond
       Key
       of_core(const Place &place) const;
       Point
-      position(const Key &key) const;
+      position(const Key &key) const override;
       void
       name_parts(const Place &ring);
 
@@ -57,8 +54,7 @@ namespace Debond
 
 
     MeshOfRevolution::MeshOfRevolution(const RevolvedBody &body)
-      : collected([this](const Key &key) { return position(key); })
-      , body(body)
+      : body(body)
       , n(body.cells)
       , across(n[0] / 2)
     {
@@ -67,17 +63,15 @@ namespace Debond
           for (unsigned int j = 0; j < n[0]; ++j)
             for (unsigned int i = 0; i < n[1]; ++i)
               {
-                collected.add({{2 * i, 2 * j, 2 * k}}, [&](const Place &place) {
-                  return of_ring(place);
-                });
+                add({{2 * i, 2 * j, 2 * k}},
+                    [&](const Place &place) { return of_ring(place); });
                 name_parts({{i, j, k}});
               }
           for (unsigned int j = 0; j < across && !body.inner; j += 2)
             for (unsigned int i = 0; i < across; i += 2)
               {
-                collected.add({{i, j, 2 * k}}, [&](const Place &place) {
-                  return of_core(place);
-                });
+                add({{i, j, 2 * k}},
+                    [&](const Place &place) { return of_core(place); });
                 name_parts({{n[1], 0, k}});
               }
         }
@@ -98,7 +92,7 @@ namespace Debond
 
 
 
-    Key
+    CellCollector::Key
     MeshOfRevolution::of_ring(const Place &place) const
     {
       return {{0, place[0], place[1] % (2 * n[0]), place[2]}};
@@ -107,7 +101,7 @@ namespace Debond
 
 
     // Around the core it is a node of the first ring.
-    Key
+    CellCollector::Key
     MeshOfRevolution::of_core(const Place &place) const
     {
       const auto [x, y, z] = place;
@@ -149,40 +143,39 @@ namespace Debond
 
 
 
-    // Of the cell that was added last.
+    // Of the cell that was added last. Two corners of a face are at one end
+    // around, two at the other: edges between them are arcs.
     void
     MeshOfRevolution::name_parts(const Place &cell)
     {
-      const auto name = [&](const RevolvedBody::Part            part,
-                            const std::string                  &group,
-                            std::initializer_list<unsigned int> corners) {
-        collected.name(body.contact == part ? "contact" : group, corners);
-      };
-      const bool is_inner = body.inner && cell[0] == 0,
-                 is_outer = cell[0] == n[1] - 1, is_bottom = cell[2] == 0;
+      using Part           = RevolvedBody::Part;
+      using Corners        = std::array<unsigned int, 4>;
       const auto from_axis = [&] { // of its bottom
         const Point middle = position({{0, 2 * cell[0] + 1, 0, 0}});
         return std::hypot(middle[0], middle[1]);
       };
-      if (is_bottom && from_axis() >= body.bottom_from)
-        name(RevolvedBody::Part::bottom, body.bottom_name, {0, 1, 2, 3});
+      for (const auto &[part, is_there, group, corners] :
+           {std::make_tuple(Part::bottom,
+                            cell[2] == 0 && from_axis() >= body.bottom_from,
+                            body.bottom_name,
+                            Corners{{0, 1, 2, 3}}),
+            std::make_tuple(Part::inner,
+                            body.inner && cell[0] == 0,
+                            body.inner_name,
+                            Corners{{0, 4, 2, 6}}),
+            std::make_tuple(Part::outer,
+                            cell[0] == n[1] - 1,
+                            body.outer_name,
+                            Corners{{1, 5, 3, 7}})})
+        if (is_there)
+          {
+            const bool is_contact = body.contact == part;
+            name(is_contact ? "contact" : group, corners);
+            for (unsigned int k = 0; k < 2 && is_contact && body.is_round; ++k)
+              add_arc(corners[k], corners[k + 2], std::cos(M_PI / n[0]));
+          }
       if (cell[2] == n[2] - 1)
-        collected.name(body.top_name, {4, 5, 6, 7});
-      if (is_inner)
-        name(RevolvedBody::Part::inner, body.inner_name, {0, 2, 4, 6});
-      if (is_outer)
-        name(RevolvedBody::Part::outer, body.outer_name, {1, 3, 5, 7});
-      // edges around of the contact face; its first corners, and so on
-      using Corners = std::array<unsigned int, 2>;
-      if (body.is_round &&
-          (body.contact == RevolvedBody::Part::inner ? is_inner :
-           body.contact == RevolvedBody::Part::outer ? is_outer :
-                                                       is_bottom))
-        for (const unsigned int c :
-             body.contact == RevolvedBody::Part::inner ? Corners{{0, 4}} :
-             body.contact == RevolvedBody::Part::outer ? Corners{{1, 5}} :
-                                                         Corners{{0, 1}})
-          collected.add_arc(c, c + 2, std::cos(M_PI / n[0]));
+        name(body.top_name, {{4, 5, 6, 7}});
     }
   } // namespace
 
@@ -191,6 +184,6 @@ namespace Debond
   StoredMesh
   mesh_of_revolution(const RevolvedBody &body)
   {
-    return std::move(MeshOfRevolution(body).collected.stored);
+    return std::move(MeshOfRevolution(body).stored);
   }
 } // namespace Debond

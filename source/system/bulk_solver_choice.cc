@@ -1,5 +1,4 @@
 #include <debond/bulk/bulk_space.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
@@ -57,7 +56,7 @@ namespace Debond
       // a block may turn
       return largest_way(model, ChuckComponent::translation_x + direction, 0.) +
              largest_way(model, tilt, model.implant.thickness()) +
-             model.implant.geometry().reach(model.implant);
+             model.implant.geometry().reach;
     }
 
 

@@ -80,7 +80,7 @@ namespace Debond
     , implant(*both_bodies->implant)
     , body{{&bone, &implant}}
     , chuck(parameters.chuck,
-            parameters.chuck.place(parameters.implant.chuck_height()),
+            parameters.chuck.place(parameters.implant.geometry().chuck_height),
             parameters.implant.characteristic_radius())
     , interface(parameters.interface, bone.mesh(), implant.mesh())
     , press_fit(parameters.interface, parameters.implant, implant.surface())

@@ -1,5 +1,4 @@
 #include <debond/interface/contact_interface.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -75,7 +74,7 @@ namespace Debond
         return 1.;
       double share = model.bone.is_fitted() ?
                        1. :
-                       model.implant.geometry().share_of_rectangle();
+                       model.implant.geometry().share_of_rectangle;
       for (const unsigned int d : {0, 1})
         {
           const double n = model.bone.lattice_of_cells()[d],

@@ -1,5 +1,4 @@
 #include <debond/interface/interface_parameters.h>
-#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/system/press_fit.h>
 
@@ -19,7 +18,7 @@ namespace Debond
     const auto &X = face.control_points();
     outwards.resize(3, X.cols());
     for (unsigned int A = 0; A < X.cols(); ++A)
-      outwards.col(A) = implant.geometry().outwards(implant, X.col(A));
+      outwards.col(A) = implant.geometry().outwards(X.col(A));
   }
 
 

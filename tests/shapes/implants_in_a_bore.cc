@@ -12,7 +12,6 @@
 #include <debond/bulk/enriched_cells.h>
 #include <debond/bulk/neo_hookean.h>
 #include <debond/scene/scene.h>
-#include <debond/shapes/body_geometry.h>
 
 #include <cmath>
 
@@ -64,7 +63,7 @@ scene_of(const std::string &shape, const unsigned int n)
 Eigen::Vector3d
 radius_of(const BodyParameters &implant, const Eigen::Vector3d &X)
 {
-  const auto centre = implant.geometry().centre_of_sphere(implant);
+  const auto centre = implant.geometry().centre_of_sphere;
   return {X[0], X[1], centre ? X[2] - *centre : 0.};
 }
 
@@ -83,12 +82,9 @@ distance_from_side(const BodyParameters &implant,
   for (const auto &point : surface_quadrature(face, dealii::QGauss<1>(6)))
     {
       const auto  &X = point.X;
-      const double r =
-        implant.geometry().centre_of_sphere(implant) ?
-          implant.radius :
-          implant.geometry().radius_of_side(implant,
-                                            X[2],
-                                            std::atan2(X[1], X[0]));
+      const double r = implant.geometry().centre_of_sphere ?
+                         implant.radius :
+                         implant.geometry().side(X[2], std::atan2(X[1], X[0]));
       grow(result, std::abs(radius_of(implant, X).norm() - r));
       SurfaceGeometry geometry;
       contract(point.basis, face.control_points(), false, geometry);
@@ -196,12 +192,12 @@ check_press_fit(const std::string &shape)
   ControlNet            grown   = face.control_points();
   for (unsigned int A = 0; A < grown.cols(); ++A)
     grown.col(A) +=
-      0.1 * implant.geometry().outwards(implant, face.control_points().col(A));
+      0.1 * implant.geometry().outwards(face.control_points().col(A));
   double error = 0.;
   for (const auto &point : surface_quadrature(face, dealii::QGauss<1>(5)))
     grow(error,
          (interpolate(point.basis, grown) - point.X -
-          0.1 * implant.geometry().outwards(implant, point.X))
+          0.1 * implant.geometry().outwards(point.X))
            .norm());
   report(shape + ": a radius that grows by 0.1 mm", error, 1e-14);
 }

@@ -308,7 +308,8 @@ faces_at_start()
   report("the chuck's point is at the top",
          std::abs(
            Scene::from_text(torsion, {file[0], "Implant/Mesh file=deep.msh"})
-             .implant.chuck_height()),
+             .implant.geometry()
+             .chuck_height),
          1e-12);
   write_coin("middle.msh", 2.5, 3., 1, 1, 0., 1.9);
   faces_of("a ring left out", {file[0], "Implant/Mesh file=middle.msh"});

@@ -16,9 +16,9 @@ namespace Debond
   std::string
   name_of(Material material);
 
-  /** "15 x 15 x 2". */
+  /** Cells of a body: "15 x 15 x 2", or "fitted 16 x 6 x 10 x 9". */
   std::string
-  in_words(const std::array<unsigned int, 3> &cells);
+  in_words(const BodyParameters &body);
 
   /** A model of a scene, and what came out of it. */
   struct ModelLevel

@@ -3,13 +3,9 @@
 
 #include <debond/input/input_file.h>
 
-#include <boost/endian/conversion.hpp>
-
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -37,57 +33,6 @@ namespace Debond
     std::size_t
     n_voxels(const FileRefusal &refuse) const;
   };
-
-
-
-  /** StoredVoxels::along of indices that run along the columns of @p
-   *  directions, whose length is 1. @p source: what the header calls them. */
-  std::array<int, 3>
-  axes_along(const Eigen::Matrix3d &directions,
-             const std::string     &source,
-             const FileRefusal     &refuse);
-
-
-
-  /** A type of numbers in a file. */
-  struct NumberType
-  {
-    unsigned int size; ///< [bytes]
-    /** Appends so many of them. */
-    void (*append)(const char         *bytes,
-                   std::size_t         n,
-                   bool                is_big_endian,
-                   std::vector<float> &grey);
-  };
-
-  template <typename Number>
-  NumberType
-  number_type()
-  {
-    return {sizeof(Number),
-            [](const char         *bytes,
-               const std::size_t   n,
-               const bool          is_big_endian,
-               std::vector<float> &grey) {
-              const bool swap =
-                is_big_endian ==
-                (boost::endian::order::native == boost::endian::order::little);
-              for (std::size_t i = 0; i < n; ++i)
-                {
-                  std::array<char, sizeof(Number)> own;
-                  std::copy_n(bytes + i * sizeof(Number),
-                              sizeof(Number),
-                              own.begin());
-                  if (swap)
-                    std::reverse(own.begin(), own.end());
-                  Number number;
-                  std::memcpy(&number, own.data(), sizeof(Number));
-                  grey.push_back(static_cast<float>(number));
-                }
-            }};
-  }
-
-
 
   /** A file `.mhd` or `.mha`. */
   StoredVoxels

@@ -1,13 +1,11 @@
 #ifndef debond_shapes_body_geometry_h
 #define debond_shapes_body_geometry_h
 
-#include <debond/geometry/nurbs_surface.h>
-#include <debond/shapes/side.h>
+#include <Eigen/Core>
 
 #include <array>
-#include <cmath>
 #include <functional>
-#include <memory>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,183 +13,130 @@
 namespace Debond
 {
   struct BodyParameters;
-  struct BodyMesh;
+  class NurbsSurface;
+  struct StoredMesh;
 
-  /**
-   * A shape of a body: its contact face, its size, and what the scene says of
-   * it. There is one of each shape, in a file of its own; the numbers are those
-   * of the body's parameters.
-   *
-   * A shape without a mesh of its own has a contact face of cells[0] x
-   * cells[1] elements, which touches z = 0 with its centre at the origin, and a
-   * flat far face at the distance thickness(). Its cells stand in columns
-   * between them.
-   */
-  class BodyGeometry
+  /** Size and contact face of a body; lengths are in mm. */
+  struct BodyGeometry
   {
-  public:
-    virtual ~BodyGeometry() = default;
+    /** Sizes of a body around the z axis, whose contact face is a disk. */
+    static BodyGeometry
+    round(double radius, double height);
 
-    /** @name As scenes know it */
-    //@{
-    /** Choice of the entry `Shape`. */
-    virtual std::string
-    name() const = 0;
-    /** What that choice means. */
-    virtual std::string
-    description() const = 0;
-    virtual bool
-    is_for_bone() const
-    {
-      return false;
-    }
-    virtual bool
-    is_for_implant() const
-    {
-      return true;
-    }
-    /** Entries that give its size; the first one says how wide it is. */
-    virtual std::vector<std::string>
-    entries() const = 0;
-    /** Throws if an entry has a mistake, with a message. */
-    using EntryCheck = std::function<
-      void(bool, const std::string &entry, const std::string &message)>;
-    virtual void
-    check(const BodyParameters &, const EntryCheck &) const
-    {}
-    //@}
-
-    /** @name Size [mm] */
-    //@{
-    /** Of the contact face along x (0) or y (1), seen from above. */
-    virtual double
-    width(const BodyParameters &body, unsigned int direction) const = 0;
-    /** On the axis. */
-    virtual double
-    thickness(const BodyParameters &body) const = 0;
-    /** How far it reaches from the axis while it turns. */
-    virtual double
-    reach(const BodyParameters &body) const;
-    /** Height of the chuck's centre. */
-    virtual double
-    chuck_height(const BodyParameters &body) const
-    {
-      return thickness(body);
-    }
-    /** Radius of the contact face at the height @p z, and at an @p angle from
-     *  the x axis [rad], of an implant that is in the bone with its side; 0 of
-     *  others. */
-    virtual double
-    radius_of_side(const BodyParameters &, double /*z*/, double /*angle*/) const
-    {
-      return 0.;
-    }
-    /** Height of the centre of a contact face that is a sphere of the body's
-     *  radius [mm]. */
-    virtual std::optional<double>
-    centre_of_sphere(const BodyParameters &) const
-    {
-      return {};
-    }
-    /** Whether an implant is in the bone, with its side or its sphere. */
-    bool
-    is_in_bore(const BodyParameters &body) const
-    {
-      return radius_of_side(body, 0., 0.) > 0. || centre_of_sphere(body);
-    }
-    /** How a point @p X of that face, or one of its control points, moves while
-     *  the radius grows, per length. */
-    virtual Eigen::Vector3d
-    outwards(const BodyParameters &body, const Eigen::Vector3d &X) const
-    {
-      return Eigen::Vector3d(X[0], X[1], 0.) /
-             radius_of_side(body, X[2], std::atan2(X[1], X[0]));
-    }
-    /** Where a point of the contact face is in the face's own two coordinates
-     *  [mm], for patterns and maps: x and y, around a side and along z, or
-     * along a sphere from its lowest point. */
-    virtual Eigen::Vector2d
-    on_face(const BodyParameters &, const Eigen::Vector3d &X) const
-    {
-      return X.head<2>();
-    }
-    /** The rectangle around the face in these. */
-    virtual std::array<Eigen::Vector2d, 2>
-    box_of_face(const BodyParameters &body) const;
-    /** Whether there is a face at a place of that rectangle; maps ask. */
-    virtual bool
-    has_face_at(const BodyParameters &body, const Eigen::Vector2d &place) const;
-    /** Area of the contact face [mm^2] where there is a closed form; 0: the sum
+    /** Extent of the contact face along x and y, seen from above. */
+    std::array<double, 2> width{{0., 0.}};
+    double                thickness = 0.; ///< on the axis; of a file from z = 0
+    double                reach     = 0.; ///< from the axis while it turns
+    double                chuck_height = 0.; ///< of the chuck's centre at rest
+    /** Area of the contact face where there is a closed form [mm^2]; 0: the sum
      *  of its elements. */
-    virtual double
-    area(const BodyParameters &) const
-    {
-      return 0.;
-    }
+    double area = 0.;
     /** Area of the contact face, seen from above, over that of the rectangle
      *  around it. */
-    virtual double
-    share_of_rectangle() const
-    {
-      return 1.;
-    }
-    //@}
+    double share_of_rectangle = 1.;
+    bool   is_round         = false; ///< it fills its rectangle but for corners
+    bool   has_closed_forms = false; ///< that also the forecast knows
 
-    /** Whether its cells stand in columns: it has no mesh. */
-    virtual bool
+    /** Radius of the contact face, of an implant that is in the bone with its
+     *  side, at a height and an angle from the x axis [rad]; empty of others.
+     */
+    std::function<double(double z, double angle)> side;
+    /** Waves of that side around, and the length of one along the axis: cells
+     *  show them with four each. Without waves it is round. */
+    double waves_around = 0.,
+           wave_length  = std::numeric_limits<double>::infinity();
+    /** Height of the centre of a contact face that is a sphere. */
+    std::optional<double> centre_of_sphere;
+    double radius = 0.; ///< of that sphere, or of the side where it is nominal
+
+    /** Whether an implant is in the bone, with its side or its sphere. */
+    bool
+    is_in_bore() const
+    {
+      return side || centre_of_sphere;
+    }
+    /** Motion of a point @p X of that face, or of one of its control points,
+     *  while the radius grows, per length. */
+    Eigen::Vector3d
+    outwards(const Eigen::Vector3d &X) const;
+    /** Place of a point of the contact face in the face's own two coordinates,
+     *  for patterns and maps: x and y, around a side and along z, or along a
+     *  sphere from its lowest point. */
+    Eigen::Vector2d
+    on_face(const Eigen::Vector3d &X) const;
+    /** Rectangle around the face in these. */
+    std::array<Eigen::Vector2d, 2>
+    box_of_face() const;
+    /** Whether there is a face at a place of that rectangle; maps ask. */
+    bool
+    has_face_at(const Eigen::Vector2d &place) const;
+  };
+
+
+
+  /** Refusal of an entry that has a mistake, with a message. */
+  using EntryCheck = std::function<void(bool               is_mistake,
+                                        const std::string &entry,
+                                        const std::string &message)>;
+
+  /** Refusal by an EntryError of "Bone" or "Implant". */
+  EntryCheck
+  refusal_in(const std::string &section);
+
+
+
+  /** Row of the table of shapes. Its functions take the entries of a body. */
+  struct ShapeRow
+  {
+    std::string name, description; ///< of the choice of the entry `Shape`
+    bool        is_for_bone, is_for_implant;
+    /** Entries that give its size; the first one says how wide it is. */
+    std::vector<std::string> entries;
+    BodyGeometry (*geometry)(const BodyParameters &body);
+    void (*check)(const BodyParameters &body, const EntryCheck &refuse);
+    /** Contact face of cells in columns, of cells[0] x cells[1] elements. It
+     *  touches z = 0 with its centre at the origin; the far face is flat, at
+     *  the distance of the thickness. Null of other cells. */
+    NurbsSurface (*contact_face)(const BodyParameters &body);
+    /** Cells about the z axis, those around, radial and along; a bone may have
+     *  a bore for the @p implant. Throws EntryError. Null of cells in columns
+     *  and of files. */
+    StoredMesh (*cells)(const BodyParameters &body,
+                        const BodyParameters &implant) = nullptr;
+
+    bool
     is_lattice() const
     {
-      return true;
+      return contact_face != nullptr;
     }
-    /** Refuses cells that do not show a side of some height. */
-    virtual void
-    check_cells_of_side(const BodyParameters &,
-                        double /*height*/,
-                        const std::array<unsigned int, 3> &,
-                        const EntryCheck &) const
-    {}
-    /** Whether a side is round. */
-    virtual bool
-    is_round_about_axis() const
-    {
-      return true;
-    }
-    /** Whether the contact face is a circle in these coordinates. */
-    virtual bool
-    is_round() const
-    {
-      return false;
-    }
-    /** Whether closed forms and the forecast know it. */
-    virtual bool
-    has_closed_forms() const
-    {
-      return false;
-    }
-
-    /** The cells of a shape that are no lattice, else null. A bone may have a
-     *  bore for the @p implant. Throws EntryError; @p section is "Bone" or
-     *  "Implant". */
-    virtual std::shared_ptr<const BodyMesh>
-    make_mesh(const BodyParameters &body,
-              const BodyParameters &implant,
-              const std::string    &section) const;
-
-    /** The contact face in the reference configuration, once there are cells.
-     */
-    virtual NurbsSurface
-    contact_face(const BodyParameters &body, Side side) const = 0;
   };
+
+  /** All shapes, in the order of BodyShape. */
+  const std::vector<ShapeRow> &
+  shape_rows();
+
+  /** Groups of them: in columns, of files, around an axis, on spheres. */
+  std::vector<ShapeRow>
+  lattice_shapes();
+  std::vector<ShapeRow>
+  file_shapes();
+  std::vector<ShapeRow>
+  revolved_shapes();
+  std::vector<ShapeRow>
+  bowl_shapes();
 
   /** Refuses what belongs to cells in columns, with the @p reason why the
    *  shape of @p body has none, or a shape that has them else has others. */
   void
-  refuse_entries_of_lattices(const BodyParameters           &body,
-                             const std::string              &reason,
-                             const BodyGeometry::EntryCheck &refuse);
-
-  /** All shapes, in the order of BodyShape. */
-  const std::vector<const BodyGeometry *> &
-  body_geometries();
+  refuse_entries_of_lattices(const BodyParameters &body,
+                             const std::string    &reason,
+                             const EntryCheck     &refuse);
+  /** The same of cells about the z axis, and wrong numbers of these. @p
+   *  has_square: whether there is a square with a quarter of those around on
+   *  each edge. */
+  void
+  check_cells_around(const BodyParameters &body,
+                     bool                  has_square,
+                     const EntryCheck     &refuse);
 } // namespace Debond
 #endif

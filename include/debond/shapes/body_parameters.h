@@ -1,6 +1,7 @@
 #ifndef debond_shapes_body_parameters_h
 #define debond_shapes_body_parameters_h
 
+#include <debond/shapes/body_geometry.h>
 #include <debond/shapes/side.h>
 
 #include <algorithm>
@@ -12,13 +13,11 @@
 
 namespace Debond
 {
-  class BodyGeometry;
   class EntryTable;
   struct BodyMesh;
   class ModulusField;
-  class NurbsSurface;
 
-  /** Each is a BodyGeometry. */
+  /** Each is a row of shape_rows(). */
   enum class BodyShape
   {
     coin,
@@ -26,12 +25,12 @@ namespace Debond
     block,
     file,
     pin,
-    sleeve,
     taper,
     screw,
+    ring,
+    sleeve,
     cup,
-    cavity,
-    ring
+    cavity
   };
   /** How both ends of a sleeve, or the top of a cavity, are held. */
   enum class SleeveEnds
@@ -159,9 +158,13 @@ namespace Debond
       const double quarter = fitted_cells[0] / 4;
       return std::sqrt(quarter * (quarter + 4. * fitted_cells[1]));
     }
-    /** What its shape is asked for. */
-    const BodyGeometry &
-    geometry() const;
+    const ShapeRow &
+    shape_row() const;
+    BodyGeometry
+    geometry() const
+    {
+      return shape_row().geometry(*this);
+    }
     /** Whether it is a block of splines whose cells across are equal. */
     bool
     has_equal_splines() const
@@ -169,13 +172,11 @@ namespace Debond
       return element == ElementKind::spline && shape == BodyShape::block &&
              cells_under_implant == 0 && lateral_grading == 1. && !is_fitted();
     }
-    /** Height of the body on its axis [mm]; of one from a file how far it
-     *  reaches from z = 0. */
     double
-    thickness() const;
-    /** Of the chuck's centre at rest [mm]. */
-    double
-    chuck_height() const;
+    thickness() const
+    {
+      return geometry().thickness;
+    }
     /** A tenth of the thickness [mm]: what penetrates deeper has most likely a
      *  wrong unit. */
     double
@@ -185,7 +186,10 @@ namespace Debond
     }
     /** Size of the contact face along x (0) or y (1), seen from above [mm]. */
     double
-    width(unsigned int direction) const;
+    width(const unsigned int direction) const
+    {
+      return geometry().width[direction];
+    }
     /** Cells in x, y, z of a lattice; of a mesh those of a lattice that has as
      *  many in all and at the contact face. */
     std::array<unsigned int, 3>
@@ -195,7 +199,7 @@ namespace Debond
     double
     cell_width(const unsigned int direction) const
     {
-      return is_fitted() ? 2. * characteristic_radius_of_fit() /
+      return is_fitted() ? 2. * (rim[0] > 0. ? rim[0] : radius) /
                              cells_across_fitted_disk() :
              cells_under_implant > 0 ?
                            2. * rim[direction] / cells_under_implant :
@@ -209,13 +213,6 @@ namespace Debond
       return 0.5 * std::min(width(0), width(1));
     }
 
-    /** Of the rim that cells are fitted to [mm]. */
-    double
-    characteristic_radius_of_fit() const
-    {
-      return rim[0] > 0. ? rim[0] : radius;
-    }
-
     /** Sides of the cells across a block along x (0) or y (1), as fractions of
      *  its edge from 0 to 1. */
     std::vector<double>
@@ -225,8 +222,8 @@ namespace Debond
     std::array<std::array<double, 3>, 2>
     corners_of_bone() const;
 
-    /** Makes or reads the mesh of a shape that has one; see
-     *  BodyGeometry::make_mesh(). Throws EntryError. */
+    /** Makes or reads the mesh of a shape that has one; a bone may have a bore
+     *  for the @p implant. Throws EntryError. */
     void
     make_mesh(const std::string &section, const BodyParameters &implant);
     /** Makes `modulus` and the mean young_modulus of the expression and the

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <functional>
-#include <initializer_list>
 #include <map>
 #include <string>
 
@@ -19,18 +18,20 @@ namespace Debond
     using Key   = std::array<unsigned int, 4>;
     using Place = std::array<unsigned int, 3>;
 
-    /** @p position: of a node [mm]. */
-    explicit CellCollector(
-      std::function<dealii::Point<3>(const Key &)> position)
-      : position(std::move(position))
-    {}
+    StoredMesh stored;
+
+  protected:
+    ~CellCollector() = default;
+    /** Of a node [mm]. */
+    virtual dealii::Point<3>
+    position(const Key &key) const = 0;
 
     /** Adds a cell, two halves long in each direction from @p first on. */
     void
     add(const Place &first, const std::function<Key(const Place &)> &key_of);
     /** Puts a face of the cell that was added last into a @p group. */
     void
-    name(const std::string &group, std::initializer_list<unsigned int> corners);
+    name(const std::string &group, const std::array<unsigned int, 4> &corners);
     /** Makes the edge between two corners of that cell an arc. */
     void
     add_arc(unsigned int corner, unsigned int other, double weight);
@@ -40,11 +41,8 @@ namespace Debond
       return stored.nodes[stored.hexahedra.back()[number]];
     }
 
-    StoredMesh stored;
-
   private:
-    std::function<dealii::Point<3>(const Key &)> position;
-    std::map<Key, unsigned int>                  number;
+    std::map<Key, unsigned int> number;
   };
 
   /** Share of the way over @p n layers at so many halves of layers, graded to

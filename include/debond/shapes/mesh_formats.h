@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
@@ -20,12 +21,6 @@ namespace Debond
    *  points of FE_Q<3>(2), in their order, 8 corners first. */
   const std::vector<dealii::Point<3>> &
   places_in_hexahedron();
-
-  /** Places of the 8 or 20 nodes of Abaqus, in their order: corners
-   *  around the bottom and the top, then the middles of the edges around them
-   *  and between them. */
-  const std::vector<unsigned int> &
-  common_places();
 
   /** Corners of the edge, the face or the cell that each of the places in a
    *  hexahedron is the middle of. */
@@ -50,12 +45,7 @@ namespace Debond
     /** Edges of the contact face that are arcs of circles, exactly: both ends,
      *  and the weight of the control point between, the cosine of half the
      *  angle. */
-    struct Arc
-    {
-      std::array<unsigned int, 2> ends;
-      double                      weight;
-    };
-    std::vector<Arc> arcs;
+    std::vector<std::pair<std::array<unsigned int, 2>, double>> arcs;
     /** Of a contact face that is part of a sphere [mm]; a radius of 0: it is
      *  none. */
     dealii::Point<3> sphere_centre;

@@ -78,7 +78,7 @@ namespace Debond
                                           boost::join(choice, ","),
                                         "--entry=" + entry,
                                         "--columns-entry=" + choice_entry},
-                                     output);
+                                     &output);
     if (code == 0)
       return rows_of(output);
     // of a table that is refused: the entry, its value, and why

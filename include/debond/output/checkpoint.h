@@ -34,7 +34,7 @@ namespace Debond
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 11;
+    static constexpr unsigned int format = 12;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 

@@ -72,10 +72,8 @@ namespace Debond
     std::string output;
     const int   code = Laboratory::run("measured",
                                      {filename,
-                                        "--curves=" +
-                                          boost::join(names, ","),
-                                        "--columns=" +
-                                          boost::join(choice, ","),
+                                        "--curves=" + boost::join(names, ","),
+                                        "--columns=" + boost::join(choice, ","),
                                         "--entry=" + entry,
                                         "--columns-entry=" + choice_entry},
                                      &output);

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <tuple>

@@ -1,11 +1,9 @@
+#include <debond/input/allowed_values.h>
 #include <debond/output/body_points.h>
 #include <debond/output/profile_output.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/serialization.h>
-
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
 
 #include <pybind11/eigen.h>
 
@@ -145,23 +143,10 @@ namespace
     py::dict
     points() const
     {
-      constexpr auto    n        = std::tuple_size<InterfacePoint>::value;
-      const char *const names[n] = {"x_mm",
-                                    "y_mm",
-                                    "r_mm",
-                                    "pressure_MPa",
-                                    "traction_MPa",
-                                    "slip_mm",
-                                    "phi",
-                                    "mu",
-                                    "state",
-                                    "area_mm2",
-                                    "left_by_opening",
-                                    "left_by_slip",
-                                    "mode_deg"};
-      Columns           columns;
+      const auto names = split_list(interface_columns);
+      Columns    columns;
       for (const auto &point : profile_points(simulation->system().interface))
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < names.size(); ++i)
           columns[names[i]].push_back(point[i]);
       return arrays(columns);
     }
@@ -184,13 +169,13 @@ namespace
     py::bytes
     save() const
     {
-      Classic<std::ostringstream>     bytes(std::ios::binary);
-      boost::archive::binary_oarchive archive(bytes);
-      archive << std::string(DEBOND_VERSION)
-              << simulation->scene.completed_parameters << *simulation;
+      std::string state, version = DEBOND_VERSION,
+                         parameters = simulation->scene.completed_parameters;
+      SavingArchive                  archive(state);
+      archive &version &parameters &*simulation;
       for (const auto &[name, drive] : drives)
-        archive << *drive;
-      return bytes.str();
+        archive &*drive;
+      return state;
     }
 
     void
@@ -200,24 +185,22 @@ namespace
         "this is no state of this scene that debond " DEBOND_VERSION
         " has saved: expected what save() of a simulation of the same scene "
         "gave";
-      Classic<std::istringstream> bytes(state, std::ios::binary);
-      std::string                 version, parameters;
-      std::unique_ptr<boost::archive::binary_iarchive> archive;
+      std::string    version, parameters;
+      LoadingArchive archive(state);
       try
         {
-          archive = std::make_unique<boost::archive::binary_iarchive>(bytes);
-          *archive >> version >> parameters;
+          archive &version &parameters;
         }
-      catch (const std::exception &) // lengths that make no sense, too
+      catch (const std::length_error &)
         {
           throw InputError(wrong);
         }
       if (version != DEBOND_VERSION ||
           parameters != simulation->scene.completed_parameters)
         throw InputError(wrong);
-      *archive >> *simulation;
+      archive &*simulation;
       for (auto &[name, drive] : drives)
-        *archive >> *drive;
+        archive &*drive;
     }
 
     std::string

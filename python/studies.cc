@@ -7,6 +7,7 @@
 #include <debond/output/reference_comparison.h>
 #include <debond/output/result_files.h>
 #include <debond/support/interruption.h>
+#include <debond/support/number_text.h>
 #include <debond/support/progress.h>
 #include <debond/support/provenance.h>
 #include <debond/system/coupled_system.h>

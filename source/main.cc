@@ -211,6 +211,14 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     // number is one line here and one in the help text.
     const std::map<std::string, unsigned int *> numbers{
       {"--jobs", &arguments.n_jobs}, {"--threads", &arguments.n_threads}};
+    // The texts, with what an option that has none needs.
+    const std::map<std::string, std::pair<std::string *, const char *>> texts{
+      {"--resume", {&arguments.directory_to_resume, "the directory of a run"}},
+      {"--compare",
+       {&arguments.directory_to_compare, "a directory of results"}},
+      {"--report", {&arguments.directory_to_report, "a directory of results"}},
+      {"--columns",
+       {&arguments.columns, "two columns, the angle and the torque"}}};
     // From left to right: of an entry that is set twice the last value counts.
     for (auto word = words.begin(); word != words.end(); ++word)
       {
@@ -232,14 +240,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
           *numbers.at(option) = read_number(option, value(""));
         else if (option == "--set")
           arguments.overrides.push_back(utf8(value("ENTRY=VALUE")));
-        else if (option == "--resume")
-          arguments.directory_to_resume = value("the directory of a run");
-        else if (option == "--compare")
-          arguments.directory_to_compare = value("a directory of results");
-        else if (option == "--report")
-          arguments.directory_to_report = value("a directory of results");
-        else if (option == "--columns")
-          arguments.columns = value("two columns, the angle and the torque");
+        else if (texts.count(option) > 0)
+          *texts.at(option).first = value(texts.at(option).second);
         else if (option.size() > 1 && option[0] == '-')
           refuse_usage("unknown option '" + option + "'");
         else if (!arguments.scene_file.empty())
@@ -589,16 +591,8 @@ main(int argc, char *argv[])
   if (Ranks::are_launched())
     {
       Ranks::start();
-      static struct : std::streambuf
-      {
-        int_type
-        overflow(const int_type c) override
-        {
-          return traits_type::not_eof(c);
-        }
-      } unheard;
       if (!Ranks::is_first())
-        std::cout.rdbuf(&unheard);
+        std::cout.rdbuf(nullptr); // which takes all, and shows nothing
     }
   try
     {

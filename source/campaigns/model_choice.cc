@@ -229,7 +229,9 @@ namespace Debond
     double
     largest_torque(const std::vector<TorqueRow> &rows)
     {
-      return measure_torque_curve(rows, CurveSettings())["T_max_Nmm"];
+      return rows.empty() ?
+               ModelLevel::undefined :
+               largest(curve_of(rows), &ReferenceCurve::value_type::second);
     }
 
 
@@ -349,14 +351,15 @@ namespace Debond
   void
   check_auto(const Scene &scene, std::ostream &out)
   {
-    const ClassicNumbers classic(out);
-    const ModelLadder    ladder(scene);
-    unsigned int         number = 0;
-    out << "Model auto would climb until the torque curve is right to "
-        << percent(scene.load_steps.tolerance) << ":\n";
+    const ModelLadder ladder(scene);
+    unsigned int      number = 0;
+    Text              text;
+    text << "Model auto would climb until the torque curve is right to "
+         << percent(scene.load_steps.tolerance) << ":\n";
     for (const ModelLevel &level : ladder.levels)
-      out << "  " << ++number << " " << level.description() << ", "
-          << level.unknowns() << " unknowns\n";
-    out << "and no further: " << ladder.why_no_further << '\n';
+      text << "  " << ++number << " " << level.description() << ", "
+           << level.unknowns() << " unknowns\n";
+    text << "and no further: " << ladder.why_no_further << '\n';
+    out << std::string(text);
   }
 } // namespace Debond

@@ -3,10 +3,6 @@
 #include <debond/support/number_text.h>
 #include <debond/system/memory_estimate.h>
 
-#include <deal.II/base/exceptions.h>
-
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -20,21 +16,6 @@ namespace Debond
 
 
 
-    /** What the scene prescribes, a column for each time: expressions may do
-     *  anything between planned steps. */
-    Eigen::ArrayXXd
-    prescribed_values(const Scene &scene)
-    {
-      Eigen::ArrayXXd values(6, scene.load_steps.sample_times().size());
-      for (unsigned int k = 0; k < 6; ++k)
-        values.row(k) =
-          Eigen::Map<const Eigen::ArrayXd>(scene.sampled_values(k).data(),
-                                           values.cols());
-      return values;
-    }
-
-
-
     void
     refuse_what_has_no_curve(const Scene &scene)
     {
@@ -44,32 +25,30 @@ namespace Debond
         throw EntryError(entry + "Control",
                          "Model = auto compares torques and takes this "
                          "rotation as prescribed");
-      const Eigen::ArrayXXd values = prescribed_values(scene);
-      const Eigen::Index    n      = values.cols() - 1;
-      // -1, 0 or 1; rounding is no motion
-      Eigen::ArrayXXd moves = values.rightCols(n) - values.leftCols(n);
-      for (unsigned int k = 0; k <= z; ++k)
-        {
-          const double rounding = 1e-12 * values.row(k).abs().maxCoeff();
-          moves.row(k)          = moves.row(k).unaryExpr([&](const double x) {
-            return double(x > rounding) - double(x < -rounding);
-          });
-        }
-      if ((moves.row(z) == 0.).all())
+      // expressions may do anything between planned steps
+      ReferenceCurve turned;
+      for (const double angle : scene.sampled_values(z))
+        turned.emplace_back(angle, 0.);
+      const Rotation rotation(turned);
+      if (rotation.direction == 0.)
         throw EntryError(entry + "Value",
                          "Model = auto judges a model by its torque curve, and "
                          "nothing rotates about z in this scene: choose a "
                          "model with Model");
-      if (moves.row(z).maxCoeff() - moves.row(z).minCoeff() > 1.)
+      if (rotation.reverses)
         throw EntryError(entry + "Value",
                          "Model = auto compares torques over the angle and "
                          "knows no rotation that reverses");
-      bool has_turned = false;
-      for (const auto &move : moves.colwise())
+      for (unsigned int k = 0; k < z; ++k)
         {
-          has_turned = has_turned || move[z] != 0.;
-          for (unsigned int k = 0; k < z; ++k)
-            if (has_turned && move[z] == 0. && move[k] != 0.)
+          const std::vector<double> values = scene.sampled_values(k);
+          const Eigen::Map<const Eigen::ArrayXd> q(values.data(),
+                                                   values.size());
+          const double rounding = 1e-12 * q.abs().maxCoeff();
+          for (std::size_t i = rotation.first_row + 1; i < values.size(); ++i)
+            if (std::abs(turned[i].first - turned[i - 1].first) <=
+                  rotation.tolerance &&
+                std::abs(q[i] - q[i - 1]) > rounding)
               throw EntryError(
                 scene.chuck.entry_name(k, "Value"),
                 "Model = auto compares torques over the angle and would not "
@@ -96,17 +75,9 @@ namespace Debond
   std::string
   name_of(const Material material)
   {
-    switch (material)
-      {
-        case Material::rigid:
-          return "rigid";
-        case Material::linear:
-          return "linear";
-        case Material::neo_hookean:
-          return "neo-hookean";
-      }
-    AssertThrow(false, dealii::ExcNotImplemented());
-    return "";
+    constexpr std::array<const char *, 3> names{
+      {"rigid", "linear", "neo-hookean"}};
+    return names[static_cast<unsigned int>(material)];
   }
 
 
@@ -221,21 +192,15 @@ namespace Debond
                      const std::vector<TorqueRow> &reference)
   {
     // two polygons differ most at a corner of one of them
-    const auto measures = [](const std::vector<TorqueRow> &rows,
-                             const std::vector<TorqueRow> &others) {
-      CurveSettings settings;
-      for (const TorqueRow &row : fine_curve(others))
-        settings.reference.emplace_back(row.angle_deg, row.torque_Nmm);
-      return measure_torque_curve(rows, settings);
-    };
-    const auto   there           = measures(rows, reference);
-    const auto   back            = measures(reference, rows);
-    const double difference_back = back["difference_max"].get<double>() *
-                                   there["T_max_Nmm"].get<double>() /
-                                   back["T_max_Nmm"].get<double>();
+    const ReferenceCurve own   = curve_of(fine_curve(rows)),
+                         other = curve_of(fine_curve(reference));
+    const CurveComparison there(own, other), back(other, own);
+    const auto            torque = &ReferenceCurve::value_type::second;
+    const double          difference_back =
+      back.difference_max * largest(own, torque) / largest(other, torque);
     return std::isnan(difference_back) ?
              difference_back :
-             std::max(difference_back, there["difference_max"].get<double>());
+             std::max(difference_back, there.difference_max);
   }
 
 

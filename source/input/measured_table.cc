@@ -72,13 +72,11 @@ namespace Debond
     std::string output;
     const int   code = Laboratory::run("measured",
                                      {filename,
-                                        "--curves=" +
-                                          boost::join(names, ","),
-                                        "--columns=" +
-                                          boost::join(choice, ","),
+                                        "--curves=" + boost::join(names, ","),
+                                        "--columns=" + boost::join(choice, ","),
                                         "--entry=" + entry,
                                         "--columns-entry=" + choice_entry},
-                                     output);
+                                     &output);
     if (code == 0)
       return rows_of(output);
     // of a table that is refused: the entry, its value, and why

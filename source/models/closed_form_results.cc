@@ -72,17 +72,15 @@ namespace Debond
     const double          seconds_before_steps = clock.wall_time();
     const Scene          &scene                = solution.scene;
     const ResultDirectory directory(scene.output, scene.completed_parameters);
-    RunReport             report(scene, directory);
-    const unsigned int    n_steps = solution.rows.size() - 1;
+    RunReport report(scene, directory, [&solution](const TorqueRow &row) {
+      return points_along_radius(*solution.model, row.angle_deg * M_PI / 180.);
+    });
+    const unsigned int n_steps = solution.rows.size() - 1;
     report.begin({});
     for (const Warning &warning : scene.warnings())
       report.console.warn(warning.check, warning.text);
     for (const TorqueRow &row : solution.rows)
-      report.add(row, n_steps, [&] {
-        return points_along_radius(*solution.model,
-                                   row.angle_deg * M_PI / 180.);
-      });
-    report.torque_curve->finish();
+      report.add(row, n_steps);
     for (const auto &jump : solution.jumps)
       report.console.warn(
         "jump",
@@ -124,22 +122,23 @@ namespace Debond
   void
   describe(const ClosedFormSolution &solution, std::ostream &out)
   {
-    const ClassicNumbers classic(out);
-    const ModelKind      model = solution.scene.model;
-    out << "Model "
-        << (model == ModelKind::foundation        ? "foundation" :
-            model == ModelKind::prescribed_angles ? "prescribed angles" :
-                                                    "crack")
-        << ", pressure " << solution.model->disk.pressure << " MPa";
+    const ModelKind model = solution.scene.model;
+    Text            text;
+    text << "Model "
+         << (model == ModelKind::foundation        ? "foundation" :
+             model == ModelKind::prescribed_angles ? "prescribed angles" :
+                                                     "crack")
+         << ", pressure " << solution.model->disk.pressure << " MPa";
     if (solution.normal_stiffness > 0.)
-      out << ", normal stiffness " << solution.normal_stiffness << " MPa/mm";
+      text << ", normal stiffness " << solution.normal_stiffness << " MPa/mm";
     if (solution.torsional_stiffness > 0.)
-      out << ", torsional stiffness " << solution.torsional_stiffness
-          << " MPa/mm";
+      text << ", torsional stiffness " << solution.torsional_stiffness
+           << " MPa/mm";
     const TorqueRow &last = solution.rows.back();
-    out << '\n'
-        << solution.rows.size() - 1 << " planned steps from time "
-        << solution.rows.front().time << " to " << last.time << '\n'
-        << "at the end " << last.torque_Nmm << " N mm\n";
+    text << '\n'
+         << solution.rows.size() - 1 << " planned steps from time "
+         << solution.rows.front().time << " to " << last.time << '\n'
+         << "at the end " << last.torque_Nmm << " N mm\n";
+    out << std::string(text);
   }
 } // namespace Debond

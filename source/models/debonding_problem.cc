@@ -76,23 +76,29 @@ namespace Debond
     /** At the end of an archive: another layout does not get there. */
     constexpr unsigned int end_of_state = 0x0deb03d;
 
-    constexpr unsigned int archive_flags = boost::archive::no_header;
 
-
-
-    /** "N degrees of freedom, M of them unknowns, ..." */
-    std::string
-    unknowns_of(const CoupledSystem &system)
+    /** "N degrees of freedom, M of them unknowns, ...", the modulus of the bone
+     *  if it varies, and its solver where there is a choice. */
+    std::vector<std::string>
+    lines_about(const Simulation &simulation)
     {
-      const BulkSpace &bone    = system.bone.mesh();
-      const BulkSpace &implant = system.implant.mesh();
-      Text             text;
+      const Scene         &scene   = simulation.scene;
+      const CoupledSystem &system  = simulation.system();
+      const BulkSpace     &bone    = system.bone.mesh();
+      const BulkSpace     &implant = system.implant.mesh();
+      Text                 text;
       text << bone.n_dofs_as_published() + implant.n_dofs_as_published()
            << " degrees of freedom, "
            << bone.n_unknowns() + implant.n_unknowns() << " of them unknowns, "
            << system.n_unknowns()
            << " after condensation on the contact surfaces";
-      return text;
+      std::vector<std::string> lines{text};
+      if (scene.bone.modulus)
+        lines.push_back(scene.bone.modulus_in_words());
+      if (scene.bone.element == ElementKind::spline ||
+          scene.bulk_solver() == BulkSolver::multigrid)
+        lines.push_back(scene.bulk_solver_in_words());
+      return lines;
     }
 
 
@@ -123,7 +129,11 @@ namespace Debond
                 dealii::TimerOutput::wall_times)
         , directory(open_directory(scene, checkpoint != nullptr))
         , checkpoints(directory)
-        , report(scene, directory)
+        , report(scene,
+                 directory,
+                 [this](const TorqueRow &) {
+                   return profile_points(simulation.system().interface);
+                 })
         , simulation(scene, std::move(bodies), &timer)
         , fields(directory,
                  simulation.system().bone,
@@ -154,15 +164,9 @@ namespace Debond
       {
         const BondingPattern &bonding = simulation.system().interface.bonding();
         Console              &console = report.console;
-        report.begin(simulation.rows(), [this] {
-          return profile_points(simulation.system().interface);
-        });
-        console.headline(unknowns_of(simulation.system()));
-        if (scene.bone.modulus)
-          console.headline(scene.bone.modulus_in_words());
-        if (scene.bone.element == ElementKind::spline ||
-            scene.bulk_solver() == BulkSolver::multigrid)
-          console.headline(scene.bulk_solver_in_words());
+        report.begin(simulation.rows());
+        for (const std::string &line : lines_about(simulation))
+          console.headline(line);
         for (const Warning &warning : simulation.warnings())
           console.warn(warning.check, warning.text);
         if (scene.interface.bonding.pattern != BondingPatternKind::homogeneous)
@@ -189,7 +193,6 @@ namespace Debond
           difference_from_forecast(scene, simulation.rows());
         if (!difference.empty())
           report.console.warn("forecast", difference);
-        report.torque_curve->finish();
       }
 
       void
@@ -199,9 +202,7 @@ namespace Debond
         const bool are_planned         = scene.load_steps.rows_are_planned();
         {
           const TimedSection t(&timer, "output");
-          report.add(row, are_planned ? scene.load_steps.n_steps() : 0, [&] {
-            return profile_points(simulation.system().interface);
-          });
+          report.add(row, are_planned ? scene.load_steps.n_steps() : 0);
           const unsigned int number =
             are_planned ? scene.load_steps.step_in_phase(row.step) : row.step;
           if (output.fields_every > 0 &&
@@ -260,15 +261,12 @@ namespace Debond
       void
       save()
       {
-        const TimedSection          t(&timer, "checkpoints");
-        Classic<std::ostringstream> bytes(std::ios::binary);
-        {
-          boost::archive::binary_oarchive archive(bytes, archive_flags);
-          archive << *this << end_of_state;
-        }
+        const TimedSection            t(&timer, "checkpoints");
+        std::string                   state;
+        unsigned int                  end = end_of_state;
+        SavingArchive(state) & *this &end;
         fields.put_on_disk();
-        checkpoints.write(
-          {simulation.rows().back().step, parameters, bytes.str()});
+        checkpoints.write({simulation.rows().back().step, parameters, state});
         since_checkpoint.restart();
       }
 
@@ -278,17 +276,14 @@ namespace Debond
         unsigned int end = 0;
         try
           {
-            Classic<std::istringstream>     bytes(checkpoint.state,
-                                              std::ios::binary);
-            boost::archive::binary_iarchive archive(bytes, archive_flags);
-            archive >> *this >> end;
+            LoadingArchive(checkpoint.state) & *this &end;
           }
         catch (const InputError &)
           {
             throw;
           }
         catch (const std::exception &)
-          {} // of the archive, or of sizes that are none
+          {} // of the archive
         if (end != end_of_state || simulation.rows().empty())
           throw InputError("the checkpoint in '" + directory.path() +
                            "' does not fit this build of the program: only the "
@@ -448,36 +443,32 @@ namespace Debond
   void
   DebondingProblem::check(std::ostream &out) const
   {
-    const ClassicNumbers       classic(out);
+    Text                       text;
     const Simulation           simulation(scene);
-    const CoupledSystem       &system    = simulation.system();
-    const ContactInterface    &interface = system.interface;
+    const ContactInterface    &interface = simulation.system().interface;
     const std::vector<double> &times     = scene.load_steps.times;
-    out << unknowns_of(system) << '\n';
-    if (scene.bone.modulus)
-      out << scene.bone.modulus_in_words() << '\n';
-    if (scene.bone.element == ElementKind::spline ||
-        scene.bulk_solver() == BulkSolver::multigrid)
-      out << scene.bulk_solver_in_words() << '\n';
+    for (const std::string &line : lines_about(simulation))
+      text << line << '\n';
     const std::string faces =
       interface.faces_at_start().in_words(interface.get_law().pulls());
-    out << interface.get_points().size() << " slave quadrature points on the "
-        << name_of(interface.slave_side()) << '\n'
-        << "memory: some "
-        << std::ceil(1e3 * MemoryEstimate(scene,
-                                          scene.bulk_solver(),
-                                          scene.output.fields_every > 0)
-                             .total)
-        << " MB" << (Ranks::number() > 1 ? " in each process\n" : "\n")
-        << "initial bonding " << name_of(scene.interface.bonding.pattern)
-        << ": " << interface.bonding().description() << '\n'
-        << faces << (faces.empty() ? "" : "\n")
-        << (scene.load_steps.adaptive ? "adaptive steps, no larger than " : "")
-        << scene.load_steps.n_steps() << " planned steps"
-        << (scene.load_steps.adaptive ? "," : "") << " from time "
-        << times.front() << " to " << times.back() << '\n';
+    text << interface.get_points().size() << " slave quadrature points on the "
+         << name_of(interface.slave_side()) << '\n'
+         << "memory: some "
+         << std::ceil(1e3 * MemoryEstimate(scene,
+                                           scene.bulk_solver(),
+                                           scene.output.fields_every > 0)
+                              .total)
+         << " MB" << (Ranks::number() > 1 ? " in each process\n" : "\n")
+         << "initial bonding " << name_of(scene.interface.bonding.pattern)
+         << ": " << interface.bonding().description() << '\n'
+         << faces << (faces.empty() ? "" : "\n")
+         << (scene.load_steps.adaptive ? "adaptive steps, no larger than " : "")
+         << scene.load_steps.n_steps() << " planned steps"
+         << (scene.load_steps.adaptive ? "," : "") << " from time "
+         << times.front() << " to " << times.back() << '\n';
     for (const Warning &warning : simulation.warnings())
-      out << "warning: " << warning.text << '\n';
+      text << "warning: " << warning.text << '\n';
+    out << std::string(text);
     if (scene.implant.geometry().has_closed_forms)
       print_forecast(scene, out);
   }

@@ -122,22 +122,23 @@ namespace Debond
   void
   print_forecast(const Scene &scene, std::ostream &out)
   {
-    const ClassicNumbers classic(out);
-    const Forecast       forecast(scene);
+    const Forecast forecast(scene);
+    Text           text;
     if (!forecast.why.empty())
-      out << "Closed forms predict nothing: " << forecast.why << '\n';
+      text << "Closed forms predict nothing: " << forecast.why << '\n';
     else
-      out << "Closed forms predict (bodies as springs in series with the "
-             "interface, to some "
-          << std::ceil(1000. * forecast.error) / 10. << " %):\n"
-          << "  mean pressure at the end " << forecast.pressure
-          << " MPa, force "
-          << forecast.pressure * M_PI * std::pow(scene.implant.radius, 2)
-          << " N\n"
-          << "  torsional stiffness while everything sticks "
-          << forecast.torsional_stiffness << " N mm/rad\n";
+      text << "Closed forms predict (bodies as springs in series with the "
+              "interface, to some "
+           << std::ceil(1000. * forecast.error) / 10. << " %):\n"
+           << "  mean pressure at the end " << forecast.pressure
+           << " MPa, force "
+           << forecast.pressure * M_PI * std::pow(scene.implant.radius, 2)
+           << " N\n"
+           << "  torsional stiffness while everything sticks "
+           << forecast.torsional_stiffness << " N mm/rad\n";
     if (forecast.T_max > 0.) // it turns
-      out << "  largest torque " << forecast.T_max << " N mm, at the end "
-          << forecast.T_end << " N mm\n";
+      text << "  largest torque " << forecast.T_max << " N mm, at the end "
+           << forecast.T_end << " N mm\n";
+    out << std::string(text);
   }
 } // namespace Debond

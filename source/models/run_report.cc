@@ -32,22 +32,24 @@ namespace Debond
 
 
 
-    /** "1.3 s, 45 steps, 76 Newton iterations, 1 warning" */
+    /** Words with the numbers of members whose names stand in braces; empty if
+     *  one of these is not known. */
     std::string
-    effort_in_words(const nlohmann::ordered_json &summary,
-                    const std::size_t             n_warnings)
+    filled(const nlohmann::ordered_json &summary,
+           std::string                   words,
+           const int                     digits = 6)
     {
-      const double steps = number_in(summary, "steps");
-      return to_text(number_in(summary, "wall_seconds"), 2) + " s" +
-             (std::isfinite(steps) ?
-                ", " + to_text(steps, 6) + " steps, " +
-                  to_text(number_in(summary, "newton_iterations"), 6) +
-                  " Newton iterations" :
-                "") +
-             (n_warnings == 0 ? "" :
-              n_warnings == 1 ? ", 1 warning" :
-                                ", " + std::to_string(n_warnings) +
-                                  " warnings");
+      for (auto begin = words.find('{'); begin != std::string::npos;
+           begin      = words.find('{'))
+        {
+               const auto   length = words.find('}') + 1 - begin;
+               const double value =
+                 number_in(summary, words.substr(begin + 1, length - 2));
+               if (!std::isfinite(value))
+            return "";
+          words.replace(begin, length, to_text(value, digits));
+        }
+      return words;
     }
 
 
@@ -59,63 +61,53 @@ namespace Debond
              const CurveAxes              &axes,
              const std::size_t             n_warnings)
     {
-      std::vector<std::string> lines;
-      const auto               value = [&](const char *const name) {
-        return number_in(summary, name);
+      const auto words = [&summary](const std::string &text) {
+        return filled(summary, text);
       };
-      const auto number = [](const double value) { return to_text(value, 6); };
-      // a line is there if the first of its numbers is known
-      const auto add = [&](const double known, const std::string &line) {
-        if (std::isfinite(known))
-          lines.push_back(line);
-      };
-      const double theta_max  = value("theta_max_deg"),
-                   theta_full = value("theta_full_deg"),
-                   breaks     = value("theta_debonding_deg"),
-                   bonded     = value("theta_bonded_deg"),
-                   stiffness  = value("initial_stiffness_Nmm_per_rad"),
-                   W_adh = value("W_adh_Nmm"), D_adh = value("D_adh_Nmm"),
-                   defect     = value("largest_energy_defect"),
-                   unbalanced = value("largest_reaction_defect");
-      add(theta_max,
-          "Largest torque " + number(value("T_max_Nmm")) + " N mm at " +
-            number(theta_max) + " deg" +
-            (std::isfinite(theta_full) ?
-               ", 99.9 % of it up to " + number(theta_full) + " deg" :
-               ""));
-      lines.push_back(loads_in_words(end));
-      if (const double pressure = value("pressure_MPa"); pressure > 1e-9)
-        lines.push_back((axes.is_torsion() ? "Pressure before turning " :
-                                             "Pressure at the end ") +
-                        number(pressure) + " MPa");
-      add(value("pull_max_N"),
-          "Largest pull " + number(value("pull_max_N")) + " N at " +
-            number(value("pull_max_mm")) + " mm");
-      if (const auto curve = summary.find("curve"); curve != summary.end())
-        lines.push_back(
-          std::string("Largest ") + axes.load_word() + " " +
-          number(curve->value("largest", 0.)) + " " + axes.load_unit() +
-          " at " + number(curve->value("at", 0.)) + " " + axes.position_unit() +
-          ", at the end " + number(curve->value("end", 0.)) + " " +
-          axes.load_unit());
-      add(stiffness,
-          "Initial torsional stiffness " + number(stiffness) + " N mm/rad");
-      add(breaks,
-          "The bond begins to break between " + number(bonded) + " and " +
-            number(breaks) + " deg");
-      if (std::isfinite(W_adh))
-        lines.push_back("Work of adhesion " + number(W_adh) +
-                        " N mm from the curve, " + number(D_adh) +
-                        " N mm by the law");
-      else if (D_adh != 0.)
-        add(D_adh, "Work on adhesion " + number(D_adh) + " N mm by the law");
-      // of closed forms, sums over rows: they say how coarse these are
-      add(unbalanced,
-          "Checks: energy to " + to_text(std::abs(end.energy_defect), 2) +
-            " of the work, in each row to " + to_text(defect, 2) +
-            " of that so far, forces on both sides of the implant to " +
-            to_text(unbalanced, 2));
-      add(value("wall_seconds"), effort_in_words(summary, n_warnings));
+      const std::string unit = axes.load_unit();
+      std::string       adhesion =
+        words("Work of adhesion {W_adh_Nmm} N mm from the curve, {D_adh_Nmm} "
+              "N mm by the law");
+      if (adhesion.empty() && number_in(summary, "D_adh_Nmm") != 0.)
+        adhesion = words("Work on adhesion {D_adh_Nmm} N mm by the law");
+      std::string effort = filled(summary, "{wall_seconds} s", 2);
+      if (!effort.empty())
+        effort +=
+          words(", {steps} steps, {newton_iterations} Newton iterations") +
+          (n_warnings == 0 ? "" :
+           n_warnings == 1 ? ", 1 warning" :
+                             ", " + std::to_string(n_warnings) + " warnings");
+      std::vector<std::string> lines{
+        words("Largest torque {T_max_Nmm} N mm at {theta_max_deg} deg"),
+        loads_in_words(end),
+        number_in(summary, "pressure_MPa") > 1e-9 ?
+          words(axes.is_torsion() ?
+                  "Pressure before turning {pressure_MPa} MPa" :
+                  "Pressure at the end {pressure_MPa} MPa") :
+          "",
+        words("Largest pull {pull_max_N} N at {pull_max_mm} mm"),
+        summary.contains("curve") ?
+          filled(summary["curve"],
+                 std::string("Largest ") + axes.load_word() + " {largest} " +
+                   unit + " at {at} " + axes.position_unit() +
+                   ", at the end {end} " + unit) :
+          "",
+        words("Initial torsional stiffness {initial_stiffness_Nmm_per_rad} "
+              "N mm/rad"),
+        words("The bond begins to break between {theta_bonded_deg} and "
+              "{theta_debonding_deg} deg"),
+        adhesion,
+        // of closed forms, sums over rows: they say how coarse these are
+        filled(summary,
+               "Checks: energy to " + to_text(std::abs(end.energy_defect), 2) +
+                 " of the work, in each row to {largest_energy_defect} of that "
+                 "so far, forces on both sides of the implant to "
+                 "{largest_reaction_defect}",
+               2),
+        effort};
+      if (!lines[0].empty())
+        lines[0] += words(", 99.9 % of it up to {theta_full_deg} deg");
+      lines.erase(std::remove(lines.begin(), lines.end(), ""), lines.end());
       return lines;
     }
   } // namespace
@@ -142,7 +134,9 @@ namespace Debond
 
 
 
-  RunReport::RunReport(const Scene &scene, const ResultDirectory &directory)
+  RunReport::RunReport(const Scene            &scene,
+                       const ResultDirectory  &directory,
+                       InterfaceTables::Points points)
     : console(scene.output.quiet,
               scene.load_steps.times,
               scene.output.axes,
@@ -153,18 +147,14 @@ namespace Debond
     , reference(read_reference_curve(scene.output.reference_curve,
                                      scene.output.reference_columns,
                                      scene.output.axes))
-    , profiles(scene, directory)
-    , maps(scene)
+    , tables(scene, directory, std::move(points))
   {}
 
 
 
   void
-  RunReport::begin(const std::vector<TorqueRow> &rows,
-                   const InterfaceMaps::Points  &points)
+  RunReport::begin(const std::vector<TorqueRow> &rows)
   {
-    if (!rows.empty())
-      points_of_last_row = points;
     if (!scene.title.empty())
       console.headline(scene.title);
     if (const std::string line = scene.values_of_the_paper(); !line.empty())
@@ -173,21 +163,18 @@ namespace Debond
     for (const std::string other : {"torque.csv", "reactions.csv"})
       if (other != file) // left by an earlier run with another curve
         remove_file(directory.file(other));
-    torque_curve.emplace(directory.file(file), torque_table(rows));
+    write_file(directory.file(file), torque_table(rows));
   }
 
 
 
   void
-  RunReport::add(const TorqueRow                                    &row,
-                 const unsigned int                                  n_steps,
-                 const std::function<std::vector<InterfacePoint>()> &points)
+  RunReport::add(const TorqueRow &row, const unsigned int n_steps)
   {
-    torque_curve->append(torque_line(row));
+    append_to_file(directory.file(scene.output.axes.rows_file()),
+                   torque_line(row));
     console.row(row, n_steps);
-    profiles.write(row.angle_deg, points);
-    maps.look(row, points);
-    points_of_last_row = points;
+    tables.look(row);
   }
 
 
@@ -197,22 +184,22 @@ namespace Debond
                     CurveSettings                 settings,
                     const nlohmann::ordered_json &facts)
   {
-    console.warn("profile", profiles.finish());
+    console.warn("profile", tables.write_profiles());
 
     // What is read off the curve, and what it refers to, Eqs. (19) to (21).
     const OutputParameters &output = scene.output;
     settings.take(output, reference);
     nlohmann::ordered_json summary = measure_torque_curve(rows, settings);
-    summary.update(profiles.measures());
+    summary.update(tables.measures());
     summary.update(facts);
     const std::vector<TorqueRow> fine = fine_curve(rows);
     if (fine.size() > rows.size())
-      write_file(directory.file("curve.csv"), curve_table(fine));
+      write_file(directory.file("curve.csv"), torque_table(fine, true));
     if (!reference.empty())
       write_reference(directory.path(), reference, output.axes);
     if (!output.curve_at.empty())
       write_file(directory.file("curve_at.csv"),
-                 curve_table(rows_at(fine, output.curve_at)));
+                 torque_table(rows_at(fine, output.curve_at), true));
     const bool  converged = summary["converged"];
     std::string missed;
     for (const double angle : output.curve_at)
@@ -240,8 +227,8 @@ namespace Debond
     for (const auto &[name, text] : provenance())
       summary["provenance"][name] = text;
     write_json(directory.file("summary.json"), summary);
-    if (points_of_last_row)
-      maps.write(directory, rows.back(), points_of_last_row);
+    if (!rows.empty())
+      tables.write_maps(rows.back());
     if (!converged)
       return;
 

@@ -35,15 +35,15 @@ namespace Debond
 
 
 
-    // What can be said before anything is solved, of the scene
-    // (Scene::warnings()) and of what it makes.
-    std::vector<Warning>
-    warnings_of(const Scene &scene, const ContactInterface &interface)
+    // Of the pattern of the bond.
+    void
+    warn_of_bonding(const Scene            &scene,
+                    const ContactInterface &interface,
+                    std::vector<Warning>   &warnings)
     {
-      std::vector<Warning> warnings = scene.warnings();
-      const auto          &report   = interface.bonding().report();
-      const auto           bonding  = scene.interface.bonding_of_law();
-      const auto           box      = scene.implant.geometry().box_of_face();
+      const auto &report  = interface.bonding().report();
+      const auto  bonding = scene.interface.bonding_of_law();
+      const auto  box     = scene.implant.geometry().box_of_face();
       if (report.mean == 0. &&
           bonding.initial_bonding * bonding.bonded_fraction > 0.)
         warnings.push_back({"nothing bonded",
@@ -69,6 +69,18 @@ namespace Debond
              to_text(seen, 4) + " instead of " + to_text(report.mean, 4) +
              ": Slave = implant meets it exactly, more elements of the bone "
              "more closely"});
+    }
+
+
+
+    // What can be said before anything is solved, of the scene
+    // (Scene::warnings()) and of what it makes.
+    std::vector<Warning>
+    warnings_of(const Scene &scene, const ContactInterface &interface)
+    {
+      std::vector<Warning> warnings = scene.warnings();
+      const FacesAtStart  &faces    = interface.faces_at_start();
+      warn_of_bonding(scene, interface, warnings);
       if (faces.overlap > 1e-6 * scene.implant.characteristic_radius())
         warnings.push_back(
           {"overlap",

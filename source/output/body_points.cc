@@ -14,28 +14,38 @@
 
 namespace Debond
 {
-  BodyFrame::BodyFrame(const Body &body, const Chuck &chuck)
-    : chuck(body.mesh().side() == Side::implant ? &chuck : nullptr)
+  BodyFields::BodyFields(const Body &body, const Chuck &chuck)
+    : space(body.mesh())
+    , chuck(space.side() == Side::implant ? &chuck : nullptr)
+    , v(body.full_displacement())
+    , sigma(body.vertex_stress(v))
   {}
 
 
 
-  Eigen::Vector3d
-  BodyFrame::displacement(const Eigen::Vector3d &X,
-                          const Eigen::Vector3d &v) const
+  BodyFields::Point
+  BodyFields::at(const BulkSpace::Cell                   &cell,
+                 const dealii::Point<3>                  &unit,
+                 const Eigen::Ref<const Eigen::VectorXd> &N) const
   {
-    return chuck ? Eigen::Vector3d(chuck->map(X, v) - X) : v;
-  }
-
-
-
-  Eigen::Matrix3d
-  BodyFrame::stress(const Eigen::Matrix3d &in_frame) const
-  {
-    if (!chuck)
-      return in_frame;
-    const Eigen::Matrix3d Q = chuck->rotation();
-    return Q * in_frame * Q.transpose();
+    Point point;
+    for (unsigned int a = 0; a < N.size(); ++a)
+      {
+        point.X += N[a] * space.reference_position(cell.nodes[a]);
+        point.v += N[a] * v.segment<3>(3 * cell.nodes[a]);
+      }
+    for (const unsigned int a : dealii::GeometryInfo<3>::vertex_indices())
+      point.sigma += dealii::GeometryInfo<3>::d_linear_shape_function(unit, a) *
+                     sigma[cell.vertices[a]];
+    point.u      = point.v;
+    point.stress = point.sigma;
+    if (chuck != nullptr)
+      {
+        const Eigen::Matrix3d Q = chuck->rotation();
+        point.u                 = chuck->map(point.X, point.v) - point.X;
+        point.stress            = Q * point.sigma * Q.transpose();
+      }
+    return point;
   }
 
 
@@ -115,11 +125,9 @@ namespace Debond
                          const Chuck            &chuck,
                          const Eigen::Matrix3Xd &points)
   {
-    constexpr double      none  = -std::numeric_limits<double>::infinity();
-    const BulkSpace      &space = body.mesh();
-    const BodyFrame       frame(body, chuck);
-    const Eigen::VectorXd v     = body.full_displacement();
-    const auto            sigma = body.vertex_stress(v);
+    constexpr double none  = -std::numeric_limits<double>::infinity();
+    const BulkSpace &space = body.mesh();
+    const BodyFields fields(body, chuck);
     Eigen::MatrixXd values = Eigen::MatrixXd::Constant(12, points.cols(), none);
     for (const BulkSpace::Cell &cell : space.cells())
       {
@@ -136,17 +144,9 @@ namespace Debond
             ShapeValues      N;
             if (!find_in_cell(space, cell, *functions, X, unit, N))
               continue;
-            Eigen::Vector3d moved  = Eigen::Vector3d::Zero();
-            Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
-            for (unsigned int a = 0; a < N.rows(); ++a)
-              moved += N(a, 0) * v.segment<3>(3 * cell.nodes[a]);
-            for (const unsigned int a :
-                 dealii::GeometryInfo<3>::vertex_indices())
-              stress +=
-                dealii::GeometryInfo<3>::d_linear_shape_function(unit, a) *
-                sigma[cell.vertices[a]];
-            values.col(p).head<3>() = frame.displacement(X, moved);
-            Eigen::Map<Eigen::Matrix3d>(&values(3, p)) = frame.stress(stress);
+            const BodyFields::Point point = fields.at(cell, unit, N.col(0));
+            values.col(p).head<3>()       = point.u;
+            Eigen::Map<Eigen::Matrix3d>(&values(3, p)) = point.stress;
           }
       }
     dealii::Utilities::MPI::max(

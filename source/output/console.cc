@@ -78,15 +78,15 @@ namespace Debond
       out << "   step " << std::setw(10) << in_head(axes.position_column())
           << ' ' << std::setw(11) << in_head(axes.load_column())
           << "  pressure/MPa  slipping/%  iterations\n";
-    columns_named = true;
-    const ClassicNumbers classic(out);
+    columns_named               = true;
     const auto [position, load] = curve_of({row}, axes).front();
-    out << std::setw(7) << row.step << ' ' << std::setw(10)
-        << fixed_text(rounded(position), 4) << ' ' << std::setw(11)
-        << fixed_text(rounded(load), 4) << ' ' << std::setw(13)
-        << fixed_text(rounded(row.pressure_MPa), 4) << ' ' << std::setw(11)
-        << fixed_text(100. * row.share_slip, 1) << ' ' << std::setw(11)
-        << row.newton_iterations << '\n';
+    out << std::string(
+      Text() << std::setw(7) << row.step << ' ' << std::setw(10)
+             << fixed_text(rounded(position), 4) << ' ' << std::setw(11)
+             << fixed_text(rounded(load), 4) << ' ' << std::setw(13)
+             << fixed_text(rounded(row.pressure_MPa), 4) << ' ' << std::setw(11)
+             << fixed_text(100. * row.share_slip, 1) << ' ' << std::setw(11)
+             << row.newton_iterations << '\n');
   }
 
 

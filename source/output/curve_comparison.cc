@@ -177,6 +177,23 @@ namespace Debond
              (is_rotation(axes.position) ? "turns" : "moves") +
              range(computed) + ", and the curve" + range(measured);
     }
+
+
+
+    /** Why there is nothing to compare; empty if there is. */
+    std::string
+    why_no_comparison(const ReferenceCurve &measured,
+                      const Rotation       &rotation,
+                      const CurveAxes      &axes)
+    {
+      return measured.empty() ?
+               "there is no curve" :
+             rotation.direction == 0. ?
+               std::string("nothing has ") +
+                 (axes.is_torsion() ? "rotated" : "moved") + " in the run" :
+             rotation.reverses ? "the run turns back" :
+                                 "";
+    }
   } // namespace
 
 
@@ -191,15 +208,10 @@ namespace Debond
                          measured   = is_torsion ? all_measured :
                                                    main_branch(all_measured);
     const Rotation rotation(computed);
-    if (measured.empty() || rotation.direction == 0. || rotation.reverses)
-      {
-        why_none = measured.empty()         ? "there is no curve" :
-                   rotation.direction == 0. ? axes.is_torsion() ?
-                                              "nothing has rotated in the run" :
-                                              "nothing has moved in the run" :
-                                              "the run turns back";
-        return;
-      }
+    why_none = why_no_comparison(measured, rotation, axes);
+    is_said  = is_torsion && !measured.empty() && !why_none.empty();
+    if (!why_none.empty())
+      return;
     ReferenceCurve curve = computed; // in ascending order
     for (auto &[angle, torque] : curve)
       angle *= rotation.direction;
@@ -213,8 +225,8 @@ namespace Debond
         const double turned = rotation.direction * angle;
         // angles go from degrees to radians and back
         const double T = torque_at(curve, turned, rotation.tolerance);
-        rows_at_rest += axes.is_torsion() && turned == 0.;
-        if (!((turned > 0. || !axes.is_torsion()) && T_largest > 0. &&
+        rows_at_rest += is_torsion && turned == 0.;
+        if (!((turned > 0. || !is_torsion) && T_largest > 0. &&
               std::isfinite(T)))
           continue;
         const double difference = std::abs(T - T_measured);
@@ -276,7 +288,7 @@ namespace Debond
     summary.update(members());
     if (!axes.is_torsion())
       summary["curve"]["difference_max_at"] = position_of_max;
-    if (rows_used == 0)
+    if (rows_used == 0 && !is_said)
       summary["remarks"].push_back(remark_begins + ("null, " + why_none));
     for (const std::string &remark : remarks)
       summary["remarks"].push_back(remark_begins + remark);

@@ -27,6 +27,27 @@ namespace Debond
 
 
 
+    /** The largest magnitude of a value in the rows. */
+    template <typename Value>
+    double
+    largest_of(const Rows &rows, const Value &value_in)
+    {
+      double most = 0.;
+      for (const TorqueRow &row : rows)
+        grow(most, std::abs(value_in(row)));
+      return most;
+    }
+
+
+
+    double
+    torque_in(const TorqueRow &row)
+    {
+      return row.torque_Nmm;
+    }
+
+
+
     double
     radians(const double degrees)
     {
@@ -39,9 +60,9 @@ namespace Debond
      *  angle of the maximum itself, around which the curve is flat, it is a
      *  well-conditioned quantity. */
     double
-    last_angle_near_maximum(const Rows &rows, const double T_max)
+    last_angle_near_maximum(const Rows &rows)
     {
-      const double threshold = 0.999 * T_max;
+      const double threshold = 0.999 * largest_of(rows, torque_in);
       unsigned int i         = rows.size() - 1;
       while (std::abs(rows[i].torque_Nmm) < threshold)
         --i; // ends at the row of T_max
@@ -125,16 +146,11 @@ namespace Debond
                const double direction,
                const double full_angle)
       {
-        double T_max = 0.;
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          {
-            T_max = std::max(T_max, std::abs(rows[i].torque_Nmm));
-            if (i > 0)
-              E_deb += 0.5 * (rows[i - 1].torque_Nmm + rows[i].torque_Nmm) *
-                       radians(rows[i].angle_deg - rows[i - 1].angle_deg);
-          }
+        for (std::size_t i = 1; i < rows.size(); ++i)
+          E_deb += 0.5 * (rows[i - 1].torque_Nmm + rows[i].torque_Nmm) *
+                   radians(rows[i].angle_deg - rows[i - 1].angle_deg);
         const TorqueRow &end = rows.back();
-        theta_full_deg       = last_angle_near_maximum(rows, T_max);
+        theta_full_deg       = last_angle_near_maximum(rows);
         if (theta_full_deg == end.angle_deg)
           theta_full_deg = std::numeric_limits<double>::quiet_NaN();
         from_deg = full_angle > 0. ? direction * full_angle : theta_full_deg;
@@ -147,18 +163,6 @@ namespace Debond
         return E_deb - E_fric;
       }
     };
-
-
-
-    /** The torque at an angle that the rows turn through [N mm]. */
-    double
-    torque_between(const Rows &rows, const double angle)
-    {
-      ReferenceCurve curve = curve_of(rows);
-      if (curve.back().first < curve.front().first)
-        std::reverse(curve.begin(), curve.end());
-      return torque_at(curve, angle, 0.);
-    }
 
 
 
@@ -182,13 +186,12 @@ namespace Debond
           turning.push_back(rows[i]);
         }
       double change = 0.;
-      for (const unsigned int first : {1, 2})
+      for (const unsigned int first : {1, 0})
         {
-          Rows fewer(turning.begin(), turning.begin() + 1);
-          for (auto i = first; i < turning.size(); i += 2)
-            fewer.push_back(turning[i]);
-          if (fewer.back().step != turning.back().step)
-            fewer.push_back(turning.back());
+          Rows fewer;
+          for (std::size_t i = 0; i < turning.size(); ++i)
+            if (i == 0 || i % 2 == first || i + 1 == turning.size())
+              fewer.push_back(turning[i]);
           grow(change,
                std::abs(
                  Energies(fewer, rotation.direction, full_angle).W_adh() -
@@ -224,9 +227,10 @@ namespace Debond
           measures["remarks"].push_back("E_fric, W_adh, w_adh: null, " + why);
           return;
         }
-      if (const double angle = rotation.direction * full_angle,
-          T                  = std::abs(torque_between(rows, angle));
-          full_angle > 0. && T < 0.99 * T_max)
+      const double angle = rotation.direction * full_angle;
+      const auto   there = rows_at(rows, {angle}); // once, or not at all
+      const double T = there.empty() ? T_max : std::abs(there[0].torque_Nmm);
+      if (full_angle > 0. && T < 0.99 * T_max)
         measures["remarks"].push_back(
           "E_fric, W_adh, w_adh: of the largest torque there are " +
           to_text(100. * T / T_max, 3) + " % at " + to_text(angle) +
@@ -324,74 +328,37 @@ namespace Debond
 
   namespace
   {
-    /** What is largest in some row. */
-    struct Extremes
-    {
-      explicit Extremes(const Rows &rows)
-        : peak(&rows.front())
-        , pull(peak)
-      {
-        for (const TorqueRow &row : rows)
-          {
-            if (std::abs(row.torque_Nmm) > std::abs(peak->torque_Nmm))
-              peak = &row;
-            if (row.force_N < pull->force_N)
-              pull = &row;
-            for (unsigned int k = 0; k < 3; ++k)
-              grow(force, std::abs(row.chuck_reaction[k]));
-            grow(energy_defect, std::abs(row.energy_defect));
-            grow(reaction_defect, row.reaction_defect);
-          }
-      }
-
-      const TorqueRow *peak, *pull;
-      double           energy_defect = 0, reaction_defect = 0, force = 0;
-    };
-
-
-
+    /** Work spent on the bond by its area, and the largest pull. */
     void
-    measure_end(const TorqueRow &end, Measures &measures)
+    measure_bond(const Rows          &rows,
+                 const CurveSettings &settings,
+                 const double         T_max,
+                 Measures            &measures)
     {
-      measures.update({{"T_inf_Nmm", end.torque_Nmm},
-                       {"D_adh_Nmm", end.adhesive_work_Nmm},
-                       {"D_adh_normal_Nmm", end.adhesive_normal_Nmm},
-                       {"D_adh_tangential_Nmm",
-                        end.adhesive_work_Nmm - end.adhesive_normal_Nmm},
-                       {"dissipation_Nmm", end.dissipation_Nmm},
-                       {"viscous_dissipation_Nmm", end.viscous_work_Nmm},
-                       {"force_end_N", end.force_N},
-                       {"work_Nmm", end.work_Nmm},
-                       {"E_bulk_Nmm", end.energy_bulk_Nmm},
-                       {"E_interface_Nmm", end.energy_interface_Nmm}});
-    }
-
-
-
-    /** The largest pull, in @p row. A parabola through the rows beside it tells
-     *  what steps that are too long have missed. */
-    void
-    measure_pull(const Rows &rows, const TorqueRow &row, Measures &measures)
-    {
-      measures.update(
-        {{"pull_max_N", -row.force_N}, {"pull_max_mm", row.chuck_position[2]}});
-      const auto add = [&measures](const std::string &remark) {
-        measures["remarks"].push_back("pull_max_N: " + remark);
-      };
-      if (&row == &rows.back())
-        return add("the pull is largest at the end: it may grow on");
-      if (&row == &rows.front() || row.is_curved())
+      const double bonded = settings.contact_area_mm2 * settings.mean_phi_0;
+      if (bonded > 0.)
+        for (const std::string part : {"normal", "tangential"})
+          measures["w_" + part + "_N_per_m"] =
+            1e3 * double(measures["D_adh_" + part + "_Nmm"]) / bonded;
+      // less is what a force that is held at 0 is solved to
+      double force = T_max / std::sqrt(settings.contact_area_mm2);
+      for (unsigned int k = 0; k < 3; ++k)
+        grow(force, largest_of(rows, [k](const TorqueRow &row) {
+               return row.chuck_reaction[k];
+             }));
+      const auto pull =
+        std::min_element(rows.begin(),
+                         rows.end(),
+                         [](const TorqueRow &a, const TorqueRow &b) {
+                           return a.force_N < b.force_N;
+                         });
+      if (!(-pull->force_N > 1e-3 * force))
         return;
-      const TorqueRow &before = *(&row - 1), &after = *(&row + 1);
-      const double t_1 = row.time - before.time, t_2 = after.time - row.time;
-      const double rise   = (before.force_N - row.force_N) / t_1,
-                   fall   = (row.force_N - after.force_N) / t_2,
-                   slope  = (rise * t_2 + fall * t_1) / (t_1 + t_2),
-                   missed = slope * slope * (t_1 + t_2) / 4. /
-                            std::abs(rise - fall) / -row.force_N;
-      if (t_1 > 0. && t_2 > 0. && missed > 0.005)
-        add("it may be " + to_text(100. * missed, 2) +
-            " % more: the rows beside it are far away, shorter steps tell");
+      measures.update({{"pull_max_N", -pull->force_N},
+                       {"pull_max_mm", pull->chuck_position[2]}});
+      if (pull + 1 == rows.end())
+        measures["remarks"].push_back(
+          "pull_max_N: the pull is largest at the end: it may grow on");
     }
 
 
@@ -472,33 +439,41 @@ namespace Debond
     if (steps.empty())
       return measures;
 
-    const Rows     rows = fine_curve(steps);
-    const Rotation rotation(curve_of(rows));
-    const Extremes most(rows);
-    const double   T_max = std::abs(most.peak->torque_Nmm);
+    const Rows       rows = fine_curve(steps);
+    const Rotation   rotation(curve_of(rows));
+    const double     T_max = largest_of(rows, torque_in);
+    const TorqueRow &end   = rows.back();
     measures.update(
       {{"E_start_Nmm",
         steps.front().energy_bulk_Nmm + steps.front().energy_interface_Nmm},
-       {"largest_energy_defect", most.energy_defect},
-       {"largest_reaction_defect", most.reaction_defect},
+       {"largest_energy_defect",
+        largest_of(rows,
+                   [](const TorqueRow &row) { return row.energy_defect; })},
+       {"largest_reaction_defect",
+        largest_of(rows,
+                   [](const TorqueRow &row) { return row.reaction_defect; })},
        {"T_max_Nmm", T_max},
        {"pressure_MPa",
-        pressure_before_rotation(rows, rotation, settings.phase_times)}});
-    measure_end(rows.back(), measures);
-    const double bonded = settings.contact_area_mm2 * settings.mean_phi_0;
-    if (settings.is_bonded && bonded > 0.)
-      for (const char *const part : {"normal", "tangential"})
-        measures[std::string("w_") + part + "_N_per_m"] =
-          1e3 * double(measures[std::string("D_adh_") + part + "_Nmm"]) /
-          bonded;
-    // less is what a force that is held at 0 is solved to
-    double force = most.force;
-    grow(force, T_max / std::sqrt(settings.contact_area_mm2));
-    if (settings.is_bonded && -most.pull->force_N > 1e-3 * force)
-      measure_pull(rows, *most.pull, measures);
+        pressure_before_rotation(rows, rotation, settings.phase_times)},
+       {"T_inf_Nmm", end.torque_Nmm},
+       {"D_adh_Nmm", end.adhesive_work_Nmm},
+       {"D_adh_normal_Nmm", end.adhesive_normal_Nmm},
+       {"D_adh_tangential_Nmm",
+        end.adhesive_work_Nmm - end.adhesive_normal_Nmm},
+       {"dissipation_Nmm", end.dissipation_Nmm},
+       {"viscous_dissipation_Nmm", end.viscous_work_Nmm},
+       {"force_end_N", end.force_N},
+       {"work_Nmm", end.work_Nmm},
+       {"E_bulk_Nmm", end.energy_bulk_Nmm},
+       {"E_interface_Nmm", end.energy_interface_Nmm}});
+    if (settings.is_bonded)
+      measure_bond(rows, settings, T_max, measures);
     if (rotation.direction != 0. && !rotation.reverses)
       {
-        measures["theta_max_deg"] = most.peak->angle_deg;
+        measures["theta_max_deg"] =
+          std::find_if(rows.begin(), rows.end(), [&](const TorqueRow &row) {
+            return std::abs(row.torque_Nmm) == T_max;
+          })->angle_deg;
         measure_beginning(rows, steps, rotation, settings, measures);
         measure_energies(rows, rotation, settings, T_max, measures);
       }
@@ -509,9 +484,7 @@ namespace Debond
     const ReferenceCurve curve = curve_of(rows, settings.axes);
     if (!settings.axes.is_torsion())
       measures["curve"] = measures_of(curve, settings.axes);
-    if (!settings.reference.empty() &&
-        (!settings.axes.is_torsion() ||
-         (rotation.direction != 0. && !rotation.reverses)))
+    if (!settings.reference.empty())
       CurveComparison(curve, settings.reference, settings.axes)
         .put_into(measures); // Eqs. (19) and (50)
     return measures;

@@ -3,7 +3,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
-#include <debond/output/bulk_fields.h>
+#include <debond/output/drawn_patches.h>
 #include <debond/output/field_output.h>
 #include <debond/support/number_text.h>
 
@@ -19,111 +19,6 @@ namespace Debond
 {
   namespace
   {
-    template <typename Vector>
-    void
-    append_values(std::vector<double> &values, const Vector &more)
-    {
-      values.insert(values.end(), more.data(), more.data() + more.size());
-    }
-
-
-
-    /** Names of fields, and how many values each has: 1 or a vector's 3. */
-    using Fields = std::vector<std::pair<std::string, unsigned int>>;
-
-    /** The contact face as deal.II draws it: a patch for each element, a
-     *  regular grid of points with the values of all fields, or, with @p dim 0,
-     *  for each point. These are no finite element functions, of which DataOut
-     *  could be told. */
-    template <int dim>
-    class DrawnFace : public dealii::DataOutInterface<dim, 3>
-    {
-    public:
-      explicit DrawnFace(const Fields &fields)
-      {
-        for (const auto &[name, n_values] : fields)
-          {
-            if (n_values == 3)
-              ranges.emplace_back(names.size(),
-                                  names.size() + 2,
-                                  name,
-                                  dealii::DataComponentInterpretation::
-                                    component_is_part_of_vector);
-            names.insert(names.end(), n_values, name);
-          }
-      }
-
-      /** Adds a patch of @p n pieces in each direction. draw(k, values) is
-       *  called for the points k: it appends the values of all fields to an
-       *  empty list and returns the position. */
-      template <typename Draw>
-      void
-      add(const unsigned int n, const Draw &draw)
-      {
-        auto &patch                = patches.emplace_back();
-        patch.patch_index          = patches.size() - 1;
-        patch.points_are_available = true;
-        if constexpr (dim > 0)
-          {
-            patch.n_subdivisions = n;
-            patch.reference_cell = dealii::ReferenceCells::Quadrilateral;
-          }
-        patch.data.reinit(names.size() + 3, dealii::Utilities::pow(n + 1, dim));
-        std::vector<double> values;
-        for (unsigned int p = 0; p < patch.data.size(1); ++p)
-          {
-            values.clear();
-            const Eigen::Vector3d position = draw(p, values);
-            AssertDimension(values.size(), names.size());
-            append_values(values, position);
-            for (unsigned int i = 0; i < values.size(); ++i)
-              patch.data(i, p) = values[i];
-          }
-      }
-
-      std::string
-      vtu()
-      {
-        dealii::DataOutBase::VtkFlags flags;
-        flags.print_date_and_time = false;
-        flags.compression_level   = flags.best_speed;
-        this->set_flags(flags);
-        Classic<std::ostringstream> text;
-        this->write_vtu(text);
-        return text.str();
-      }
-
-    private:
-      using Patch = dealii::DataOutBase::Patch<dim, 3>;
-      using Range = std::tuple<
-        unsigned int,
-        unsigned int,
-        std::string,
-        dealii::DataComponentInterpretation::DataComponentInterpretation>;
-
-      const std::vector<Patch> &
-      get_patches() const override
-      {
-        return patches;
-      }
-      std::vector<std::string>
-      get_dataset_names() const override
-      {
-        return names;
-      }
-      std::vector<Range>
-      get_nonscalar_data_ranges() const override
-      {
-        return ranges;
-      }
-
-      std::vector<Patch>       patches;
-      std::vector<std::string> names;
-      std::vector<Range>       ranges; ///< vectors
-    };
-
-
-
     /** The quadrature points of a surface as one tensor grid over the patch, or
      *  one in each of several patches. */
     class QuadratureGrid
@@ -308,18 +203,18 @@ namespace Debond
 
 
 
-    Fields
+    FieldNames
     fields_of(const InterfaceLaw &law)
     {
-      Fields fields{{"pressure_MPa", 1},
-                    {"traction_MPa", 3},
-                    {"gap_mm", 1},
-                    {"slip_mm", 1},
-                    {"phi_0", 1},
-                    {"phi", 1},
-                    {"mu", 1},
-                    {"state", 1},
-                    {"displacement", 3}};
+      FieldNames fields{{"pressure_MPa", 1},
+                        {"traction_MPa", 3},
+                        {"gap_mm", 1},
+                        {"slip_mm", 1},
+                        {"phi_0", 1},
+                        {"phi", 1},
+                        {"mu", 1},
+                        {"state", 1},
+                        {"displacement", 3}};
       if (law.pulls())
         fields.insert(fields.end(),
                       {{"left_by_opening", 1},
@@ -373,15 +268,15 @@ namespace Debond
     const NurbsSurface  &surface = slave.surface();
     const ControlNet     u       = control_point_displacement(slave, chuck);
     const QuadratureGrid grid(interface, surface);
-    SurfaceBasis         basis;
-    const unsigned int   n = n_pieces(surface, 96, 4, 16);
+    const unsigned int   n = n_pieces(surface.n_elements_across(), 96, 4, 16);
     const auto           corners =
       dealii::QIterated<2>(dealii::QTrapezoid<1>(), n).get_points();
-    DrawnFace<2> face(fields_of(interface.get_law()));
-    for (unsigned int element = 0; element < surface.n_elements(); ++element)
-      face.add(n, [&](const unsigned int k, std::vector<double> &values) {
+    DrawnPatches<2> face(fields_of(interface.get_law()));
+    face.add(surface.n_elements(), n, [&](const unsigned int element) {
+      return [&, element](const unsigned int k, std::vector<double> &values) {
         const Eigen::Vector2d xi =
           parameters_at(surface.element_bounds(element), corners[k]);
+        SurfaceBasis basis;
         surface.evaluate_in_element(element, xi, basis, false);
         append_fields(values,
                       interface,
@@ -389,7 +284,8 @@ namespace Debond
                       grid.stencil(element, xi, true),
                       interpolate(basis, u));
         return Eigen::Vector3d(interpolate(basis, surface.control_points()));
-      });
+      };
+    });
     return face.vtu();
   }
 
@@ -402,16 +298,16 @@ namespace Debond
   {
     ControlNet  u      = control_point_displacement(slave, chuck);
     const auto &points = interface.get_points();
-    Fields      fields = fields_of(interface.get_law());
+    FieldNames  fields = fields_of(interface.get_law());
     // gaps at the start have no part in it
     u.conservativeResize(Eigen::NoChange, u.cols() + 4);
     u.rightCols<4>().setZero();
     fields.insert(
       fields.end(),
       {{"area_mm2", 1}, {"force_N", 3}, {"moment_Nmm", 3}, {"energy_Nmm", 1}});
-    DrawnFace<0> drawn(fields);
-    for (unsigned int q = 0; q < points.size(); ++q)
-      drawn.add(0, [&](const unsigned int, std::vector<double> &values) {
+    DrawnPatches<0> drawn(fields);
+    drawn.add(points.size(), 0, [&](const unsigned int q) {
+      return [&, q](const unsigned int, std::vector<double> &values) {
         const SlavePoint             &point = points[q];
         const PointLoad               load  = interface.load(q, chuck.centre());
         const QuadratureGrid::Stencil itself{{{&point, &point, &point, &point}},
@@ -424,7 +320,8 @@ namespace Debond
         append_values(values, load.moment);
         values.push_back(load.energy);
         return point.X;
-      });
+      };
+    });
     return drawn.vtu();
   }
 } // namespace Debond

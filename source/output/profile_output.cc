@@ -1,9 +1,6 @@
-#include <debond/input/csv_table.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/output/profile_output.h>
-#include <debond/output/result_files.h>
-#include <debond/scene/scene.h>
-#include <debond/support/number_text.h>
+#include <debond/shapes/body_geometry.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/numerics/rtree.h>
@@ -16,51 +13,6 @@
 
 namespace Debond
 {
-  namespace
-  {
-    /** phi and mu from g_s = 0 to 1.5 times the distance after which no bond is
-     *  left. */
-    std::string
-    friction_law_table(const InterfaceParameters &interface)
-    {
-      constexpr unsigned int n        = 600;
-      const FrictionLaw     &friction = *interface.friction;
-      const FrictionState    start{interface.bonding.initial_bonding};
-      const double           end     = 1.5 * friction.kinks().back();
-      const double           initial = friction.coefficient(start, 0.).mu;
-      std::string            table   = "slip_mm,phi,mu,mu_over_initial\n";
-      for (unsigned int i = 0; i <= n; ++i)
-        {
-          const double slip        = end * i / n;
-          const auto   coefficient = friction.coefficient(start, slip);
-          table += csv_line({slip,
-                             coefficient.phi,
-                             coefficient.mu,
-                             initial > 0. ? coefficient.mu / initial : 0.});
-        }
-      return table;
-    }
-  } // namespace
-
-
-
-  ProfileOutput::ProfileOutput(const Scene           &scene,
-                               const ResultDirectory &directory)
-    : directory(directory)
-    , angles_to_come(scene.output.profile_angles)
-    , reference(read_profiles(scene.output.reference_profiles))
-    , wanted(!angles_to_come.empty())
-    , table("angle_deg,x_mm,y_mm,r_mm,pressure_MPa,traction_MPa,slip_mm,phi,mu,"
-            "state,area_mm2,left_by_opening,left_by_slip,mode_deg\n")
-  {
-    std::sort(angles_to_come.begin(), angles_to_come.end());
-    if (scene.output.friction_law_curve)
-      write_file(directory.file("friction_law.csv"),
-                 friction_law_table(scene.interface));
-  }
-
-
-
   std::vector<InterfacePoint>
   profile_points(const ContactInterface &interface)
   {
@@ -90,56 +42,6 @@ namespace Debond
                              traction.mode_deg()}});
         }
     return points;
-  }
-
-
-
-  void
-  ProfileOutput::write(
-    const double                                        angle_deg,
-    const std::function<std::vector<InterfacePoint>()> &points)
-  {
-    const auto first_to_come =
-      std::find_if(angles_to_come.begin(),
-                   angles_to_come.end(),
-                   [&](const double angle) {
-                     return std::abs(angle_deg) < angle * (1. - 1e-9);
-                   });
-    if (first_to_come == angles_to_come.begin())
-      return;
-    angles_to_come.erase(angles_to_come.begin(), first_to_come);
-    has_points = true;
-    for (const InterfacePoint &point : points())
-      {
-        std::vector<double> columns{angle_deg};
-        columns.insert(columns.end(), point.begin(), point.end());
-        table += csv_line(columns);
-      }
-  }
-
-
-
-  std::string
-  ProfileOutput::finish()
-  {
-    if (!wanted)
-      return "";
-    write_file(directory.file("profiles.csv"), table);
-    if (angles_to_come.empty())
-      return "";
-    return "Output / Profile angles: " + to_text(angles_to_come.front(), 6) +
-           " deg was never reached";
-  }
-
-
-
-  nlohmann::ordered_json
-  ProfileOutput::measures() const
-  {
-    Profiles written;
-    if (has_points && !reference.empty())
-      written = read_profiles(directory.file("profiles.csv"));
-    return compare_profiles(written, reference);
   }
 
 

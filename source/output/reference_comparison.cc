@@ -88,12 +88,7 @@ namespace Debond
           erase_texts(summary["warnings"], output.reference_curve);
           write_reference(directory, measured, axes);
           const CurveComparison comparison(curve, measured, axes);
-          const Rotation        rotation(curve);
-          if (axes.is_torsion() &&
-              (rotation.direction == 0. || rotation.reverses))
-            summary.update(comparison.members()); // the remarks say so already
-          else
-            comparison.put_into(summary);
+          comparison.put_into(summary);
           for (const std::string &text :
                comparison.warnings(output.reference_curve))
             summary["warnings"].push_back(text);

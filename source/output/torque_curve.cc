@@ -14,46 +14,78 @@
 
 namespace Debond
 {
-  std::string
-  torque_line(TorqueRow row)
+  namespace
   {
-    std::vector<double> values;
-    row.for_each_column([&](const std::string &, const double value) {
-      values.push_back(value);
-    });
-    return csv_line(values);
+    std::vector<double>
+    values_of(TorqueRow row)
+    {
+      std::vector<double> values;
+      row.for_each_column([&](const std::string &, const double value) {
+        values.push_back(value);
+      });
+      return values;
+    }
+
+
+
+    /** What Rates are of. */
+    TorqueRow::Rates
+    curve_values(TorqueRow row)
+    {
+      TorqueRow::Rates values;
+      unsigned int     i = 0;
+      TorqueRow::for_each_curve(row, [&](const double value) {
+        values[i++] = value;
+      });
+      return values;
+    }
+  } // namespace
+
+
+
+  std::string
+  torque_line(const TorqueRow &row)
+  {
+    return csv_line(values_of(row));
   }
 
 
 
   std::string
-  torque_table(const std::vector<TorqueRow> &rows)
+  torque_table(const std::vector<TorqueRow> &rows, const bool of_curve)
   {
     std::vector<std::string> names;
-    TorqueRow().for_each_column(
-      [&](const std::string &name, double) { names.push_back(name); });
+    std::vector<bool>        is_shown;
+    TorqueRow().for_each_column([&](const std::string &name, double) {
+      is_shown.push_back(!of_curve || name == "time" || name == "angle_deg" ||
+                         name == "torque_Nmm" || name == "force_N" ||
+                         name.rfind("chuck_", 0) == 0);
+      if (is_shown.back())
+        names.push_back(name);
+    });
     std::string table = csv_line(names);
     for (const TorqueRow &row : rows)
-      table += torque_line(row);
+      {
+        std::vector<double> shown;
+        unsigned int        column = 0;
+        for (const double value : values_of(row))
+          if (is_shown[column++])
+            shown.push_back(value);
+        table += csv_line(shown);
+      }
     return table;
   }
 
 
 
   TorqueRow::Rates
-  TorqueRow::rates_of_parabola(TorqueRow before) const
+  TorqueRow::rates_of_parabola(const TorqueRow &before) const
   {
-    Rates        result = rates_at_end;
-    TorqueRow    end    = *this;
-    const double h      = time - before.time;
-    unsigned int i      = 0;
-    for_each_curve(end, [&](const double value) {
-      result[i] = 2. * value / h - result[i];
-      ++i;
-    });
-    i = 0;
-    for_each_curve(before,
-                   [&](const double value) { result[i++] -= 2. * value / h; });
+    const Rates begin = curve_values(before), end = curve_values(*this);
+    Rates       result;
+    for (unsigned int i = 0; i < result.size(); ++i)
+      result[i] =
+        2. * (end[i] - begin[i]) / (time - before.time) - rates_at_end[i];
     return result;
   }
 
@@ -63,13 +95,10 @@ namespace Debond
   {
     /** The row at the part @p s of the step between two, linear. */
     TorqueRow
-    row_on_chord(TorqueRow row, TorqueRow end, const double s)
+    row_on_chord(TorqueRow row, const TorqueRow &end, const double s)
     {
-      std::vector<double> ends;
-      end.for_each_column([&](const std::string &, const double value) {
-        ends.push_back(value);
-      });
-      unsigned int i = 0;
+      const std::vector<double> ends = values_of(end);
+      unsigned int              i    = 0;
       row.for_each_column([&](const std::string &, auto &value) {
         value += s * (ends[i++] - value);
       });
@@ -80,28 +109,22 @@ namespace Debond
 
     /** The same on Hermite's cubic. */
     TorqueRow
-    row_between(TorqueRow begin, TorqueRow end, const double s)
+    row_between(const TorqueRow &begin, const TorqueRow &end, const double s)
     {
-      TorqueRow           row = row_on_chord(begin, end, s);
-      const double        h   = end.time - begin.time;
-      unsigned int        i   = 0;
-      std::vector<double> ends;
-      TorqueRow::for_each_curve(end, [&](const double value) {
-        ends.push_back(value);
-      });
-      TorqueRow::for_each_curve(begin, [&](double &value) {
-        const double change = ends[i] - value;
-        value +=
-          s * change + s * (1. - s) *
-                         ((1. - s) * (h * end.rates_at_begin[i] - change) -
-                          s * (h * end.rates_at_end[i] - change));
+      TorqueRow    row    = row_on_chord(begin, end, s);
+      const double h      = end.time - begin.time;
+      const auto   starts = curve_values(begin), ends = curve_values(end);
+      unsigned int i = 0;
+      TorqueRow::for_each_curve(row, [&](double &value) {
+        const double change = ends[i] - starts[i];
+        value               = starts[i] + s * change +
+                s * (1. - s) *
+                  ((1. - s) * (h * end.rates_at_begin[i] - change) -
+                   s * (h * end.rates_at_end[i] - change));
         ++i;
       });
-      row.torque_Nmm     = begin.torque_Nmm;
-      row.chuck_reaction = begin.chuck_reaction;
-      row.chuck_position = begin.chuck_position;
-      row.angle_deg      = row.chuck_position[5];
-      row.force_N        = 0. - row.chuck_reaction[2];
+      row.angle_deg = row.chuck_position[5];
+      row.force_N   = 0. - row.chuck_reaction[2];
       return row;
     }
   } // namespace
@@ -155,28 +178,6 @@ namespace Debond
         has_turned = true;
       }
     return result;
-  }
-
-
-
-  std::string
-  curve_table(const std::vector<TorqueRow> &fine)
-  {
-    std::string table = "time,angle_deg,torque_Nmm,force_N,chuck_Fx_N,"
-                        "chuck_Fy_N,chuck_Fz_N,chuck_Mx_Nmm,chuck_My_Nmm,"
-                        "chuck_Mz_Nmm,chuck_ux_mm,chuck_uy_mm,chuck_uz_mm,"
-                        "chuck_rx_deg,chuck_ry_deg,chuck_rz_deg\n";
-    for (const TorqueRow &row : fine)
-      {
-        std::vector<double> values{row.time,
-                                   row.angle_deg,
-                                   row.torque_Nmm,
-                                   row.force_N};
-        for (const auto &columns : {row.chuck_reaction, row.chuck_position})
-          values.insert(values.end(), columns.begin(), columns.end());
-        table += csv_line(values);
-      }
-    return table;
   }
 
 

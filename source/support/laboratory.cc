@@ -7,12 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <optional>
 
 namespace Debond
 {
@@ -75,43 +75,6 @@ namespace Debond
         std::vector<std::string> texts;
         std::vector<char *>      pointers;
       };
-
-
-
-      /** Starts it, with its standard output into a descriptor if there is one.
-       */
-      std::optional<pid_t>
-      start(const CommandLine &command, const int output = -1)
-      {
-        say_where_the_package_is();
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        if (output >= 0)
-          posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-        pid_t     child = 0;
-        const int error = posix_spawnp(&child,
-                                       command.pointers[0],
-                                       &actions,
-                                       nullptr,
-                                       command.pointers.data(),
-                                       environ);
-        posix_spawn_file_actions_destroy(&actions);
-        return error == 0 ? std::optional<pid_t>(child) : std::nullopt;
-      }
-
-
-
-      int
-      end_of(const std::optional<pid_t> &child)
-      {
-        int status = 0;
-        if (!child)
-          return 127;
-        while (waitpid(*child, &status, 0) < 0 && errno == EINTR)
-          ;
-        return WIFEXITED(status) ? WEXITSTATUS(status) :
-                                   128 + WTERMSIG(status);
-      }
     } // namespace
 
 
@@ -131,34 +94,45 @@ namespace Debond
 
 
     int
-    run(const std::string &command, const std::vector<std::string> &words)
-    {
-      std::cout << std::flush;
-      return end_of(start({command, words}));
-    }
-
-
-
-    int
     run(const std::string              &command,
         const std::vector<std::string> &words,
-        std::string                    &output)
+        std::string *const              output)
     {
-      std::array<int, 2> pipe_ends{};
-      if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
+      std::cout << std::flush;
+      say_where_the_package_is();
+      const CommandLine          line(command, words);
+      std::array<int, 2>         pipe_ends{};
+      posix_spawn_file_actions_t actions;
+      if (output != nullptr && pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
         return 127;
-      const auto child = start({command, words}, pipe_ends[1]);
-      close(pipe_ends[1]);
-      std::array<char, 65536> part{};
-      for (ssize_t n = 1; n != 0;)
+      posix_spawn_file_actions_init(&actions);
+      if (output != nullptr)
+        posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+      pid_t     child = 0;
+      const int error = posix_spawnp(&child,
+                                     line.pointers[0],
+                                     &actions,
+                                     nullptr,
+                                     line.pointers.data(),
+                                     environ);
+      posix_spawn_file_actions_destroy(&actions);
+      if (output != nullptr)
         {
-          n = read(pipe_ends[0], part.data(), part.size());
-          if (n < 0 && errno != EINTR)
-            break;
-          output.append(part.data(), n > 0 ? n : 0);
+          close(pipe_ends[1]);
+          std::array<char, 65536> part{};
+          for (ssize_t n = 1; n > 0 || (n < 0 && errno == EINTR);)
+            {
+              n = read(pipe_ends[0], part.data(), part.size());
+              output->append(part.data(), std::max<ssize_t>(n, 0));
+            }
+          close(pipe_ends[0]);
         }
-      close(pipe_ends[0]);
-      return end_of(child);
+      if (error != 0)
+        return 127;
+      int status = 0;
+      while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+      return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     }
   } // namespace Laboratory
 } // namespace Debond

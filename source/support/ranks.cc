@@ -348,17 +348,11 @@ namespace Debond
         {
           return false;
         }
-      catch (const InputError &)
+      catch (const std::exception &error)
         {
-          return true;
-        }
-      catch (const RunError &)
-        {
-          return true;
-        }
-      catch (const Interrupted &)
-        {
-          return true;
+          return dynamic_cast<const InputError *>(&error) != nullptr ||
+                 dynamic_cast<const RunError *>(&error) != nullptr ||
+                 dynamic_cast<const Interrupted *>(&error) != nullptr;
         }
       catch (...)
         {

@@ -129,46 +129,23 @@ namespace Debond
 
 
 
-  GrowingFile::GrowingFile(const std::string &filename, const std::string &text)
-    : filename(filename)
-  {
-    if (!Ranks::is_first())
-      return;
-    write_file(filename, text);
-    file.rdbuf()->pubsetbuf(nullptr, 0); // nothing is kept back
-    file.open(filename, std::ios::binary | std::ios::app);
-    if (!file)
-      fail(filename);
-  }
-
-
-
   void
-  GrowingFile::append(const std::string &text)
+  append_to_file(const std::string &filename, const std::string &text)
   {
     if (!Ranks::is_first())
       return;
     std::error_code ignored;
     const auto      before = std::filesystem::file_size(filename, ignored);
-    if (file << text)
+    Classic<std::ofstream> file(filename, std::ios::binary | std::ios::app);
+    file << text;
+    file.close();
+    if (file)
       return;
     const int reason = errno;
     // no part of a text may stay; if this fails as well, it does
     std::filesystem::resize_file(filename, before, ignored);
     errno = reason;
     fail(filename);
-  }
-
-
-
-  void
-  GrowingFile::finish()
-  {
-    if (!Ranks::is_first())
-      return;
-    file.close();
-    if (!file)
-      fail(filename);
   }
 
 

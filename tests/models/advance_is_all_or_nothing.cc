@@ -60,10 +60,9 @@ struct Attempt
 std::string
 checkpoint_of(Simulation &simulation)
 {
-  std::ostringstream              bytes(std::ios::binary);
-  boost::archive::binary_oarchive archive(bytes);
-  archive << simulation;
-  return bytes.str();
+  std::string bytes;
+  SavingArchive(bytes) & simulation;
+  return bytes;
 }
 
 
@@ -286,9 +285,8 @@ check_resumed()
              clean   = simulation_of(overrides, none);
   for (unsigned int i = 0; i < 3; ++i)
     clean->advance();
-  std::istringstream bytes(checkpoint_of(*clean), std::ios::binary);
-  boost::archive::binary_iarchive archive(bytes);
-  archive >> *failing;
+  const std::string checkpoint = checkpoint_of(*clean);
+  LoadingArchive(checkpoint) & *failing;
   clean->run();
   FailingRow row;
   while (row.with_traces == 0 && !failing->is_finished())
@@ -388,10 +386,9 @@ check_all()
   check("Rate and state friction",
         {"Interface/Friction law=rate and state", turns});
   check("Multigrid", {"Bone/Solver=multigrid", turns, large_x}, 5);
-  check(
-    "Multigrid, a Neo-Hookean bone",
-    {"Bone/Solver=multigrid", "Bone/Material=neo-hookean", turns, large_x},
-    6);
+  check("Multigrid, a Neo-Hookean bone",
+        {"Bone/Solver=multigrid", "Bone/Material=neo-hookean", turns, large_x},
+        6);
   check_refused_load();
   check_resumed();
   check_callbacks();

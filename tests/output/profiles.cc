@@ -42,7 +42,7 @@ read_columns(const std::string &filename)
 
 
 
-const char *const scene_text = R"(
+const char *const text_of_scene = R"(
 subsection Bone
   set Material = rigid
 end
@@ -111,7 +111,7 @@ check_local_errors(const RigidBodiesTorsion &exact)
     {
       write_reference("results/reference.csv", exact, 1. + by, 1. + 2. * by);
       run_scene("profiles",
-                scene_text,
+                text_of_scene,
                 {"Output/Reference profiles=results/reference.csv"});
       report("both angles compared", summary("reference_angles_used") == 2);
       report("local error of the pressure",
@@ -145,7 +145,7 @@ check_local_errors(const RigidBodiesTorsion &exact)
 void
 test()
 {
-  run_scene("profiles", scene_text);
+  run_scene("profiles", text_of_scene);
   TorsionModel::Disk parameters;
   parameters.radius    = 2.5;
   parameters.pressure  = 2.6;

@@ -62,7 +62,7 @@ namespace
   }
 
   void
-  list(const std::string &path)
+  list_files(const std::string &path)
   {
     std::vector<std::string> names;
     for (const auto &entry : std::filesystem::directory_iterator(path))
@@ -80,7 +80,7 @@ namespace
     const int other = ::open("results/a", O_RDONLY | O_DIRECTORY);
     flock(other, LOCK_EX);
     open("results/a", "a third scene", true);
-    list("results/a");
+    list_files("results/a");
     close(other);
     open("results/a", "a third scene", true);
     const Debond::ResultDirectory directory("results/a");
@@ -98,9 +98,9 @@ main()
   leave_results("results/a");
   open("results/a", "one scene", false);
   open("results/a", "another scene", false);
-  list("results/a");
+  list_files("results/a");
   open("results/a", "another scene", true);
-  list("results/a");
+  list_files("results/a");
   open("results/a/parameters.prm", "a file is no directory", false);
 
   test_lock();

@@ -150,8 +150,9 @@ check_triangle()
                              settings())["initial_stiffness_Nmm_per_rad"],
         47 / (1 * radian));
 
-  std::cout << "The entry Friction energy from angle is what E_fric is counted from"
-            << std::endl;
+  std::cout
+    << "The entry Friction energy from angle is what E_fric is counted from"
+    << std::endl;
   CurveSettings given          = settings();
   given.full_sliding_angle_deg = 4;
   const auto overridden = measure_torque_curve(make_rows(triangle()), given);
@@ -330,7 +331,9 @@ check_errors()
   check("e_rel", m["e_rel"], (5. / 50 + 37.1 / 50 + 10. / 50 + 0.) / 4);
   check("largest difference", m["difference_max"], 37.1 / 50);
   check("where it is [deg]", m["difference_max_deg"], 1.5);
-  check("mean difference", m["difference_mean"], (5. + 37.1 + 10. + 0.) / 4 / 50);
+  check("mean difference",
+        m["difference_mean"],
+        (5. + 37.1 + 10. + 0.) / 4 / 50);
   check("rows read without a file", read_reference_curve("").size(), 0);
 
   // in N m, in radians, with the other sign: what is said of the file's curve
@@ -402,13 +405,14 @@ show_files()
   const ResultDirectory directory(output, "");
 
   std::cout << "torque.csv" << std::endl;
-  GrowingFile writer(directory.file("torque.csv"), torque_table({}));
-  auto        rows          = make_rows(triangle());
+  const std::string file = directory.file("torque.csv");
+  write_file(file, torque_table({}));
+  auto rows                 = make_rows(triangle());
   rows[2].torque_Nmm        = 50. / 3.;
   rows[2].chuck_reaction[5] = -1e-7;
-  writer.append(torque_line(rows[1]));
-  writer.append(torque_line(rows[2]));
-  std::cout << contents("results/torque.csv"); // while it is still open
+  append_to_file(file, torque_line(rows[1]));
+  append_to_file(file, torque_line(rows[2]));
+  std::cout << contents("results/torque.csv");
   write_text("own.csv", contents("results/torque.csv"));
   check("it can be a reference itself",
         read_reference_curve("own.csv").at(1).second,

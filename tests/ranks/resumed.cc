@@ -7,9 +7,6 @@
 #include <debond/support/runtime.h>
 #include <debond/support/serialization.h>
 
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-
 #include <sstream>
 
 #include "../checks.h"
@@ -46,10 +43,9 @@ end
 std::string
 saved(Simulation &simulation)
 {
-  std::ostringstream              bytes(std::ios::binary);
-  boost::archive::binary_oarchive archive(bytes);
-  archive << simulation;
-  return bytes.str();
+  std::string bytes;
+  SavingArchive(bytes) & simulation;
+  return bytes;
 }
 
 
@@ -65,11 +61,9 @@ go_on_alone(const std::string &change)
 
   double difference = 0., largest = 0.;
   {
-    const Ranks::Together           alone(MPI_COMM_SELF);
-    Simulation                      resumed(scene_of(change));
-    std::istringstream              bytes(checkpoint, std::ios::binary);
-    boost::archive::binary_iarchive archive(bytes);
-    archive >> resumed;
+    const Ranks::Together alone(MPI_COMM_SELF);
+    Simulation            resumed(scene_of(change));
+    LoadingArchive(checkpoint) & resumed;
     resumed.run();
     for (unsigned int i = 0; i < begun.rows().size(); ++i)
       {

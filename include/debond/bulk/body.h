@@ -4,7 +4,7 @@
 #include <debond/bulk/condensing_bulk.h>
 #include <debond/bulk/whole_bulk.h>
 #include <debond/support/accepted_state.h>
-#include <debond/support/saved_state.h>
+#include <debond/support/serialization.h>
 
 #include <memory>
 #include <vector>

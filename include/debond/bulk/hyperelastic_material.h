@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <memory>
+#include <tuple>
 
 namespace Debond
 {
@@ -44,74 +46,58 @@ namespace Debond
   class HyperelasticMaterial
   {
   public:
-    virtual ~HyperelasticMaterial() = default;
-
-    /** In cells of 2 x 2 x 2 points, or of 3 x 3 x 3. */
-    virtual void
-    stress(const PointValues<8> (&H)[3][3],
-           PointValues<8> (&P)[3][3],
-           PointValues<8> &W) const = 0;
-    virtual void
-    stress(const PointValues<27> (&H)[3][3],
-           PointValues<27> (&P)[3][3],
-           PointValues<27> &W) const = 0;
-    virtual void
-    tangent(const PointValues<8> (&H)[3][3],
-            PointValues<8> (&C)[3][3][3][3]) const = 0;
-    virtual void
-    tangent(const PointValues<27> (&H)[3][3],
-            PointValues<27> (&C)[3][3][3][3]) const = 0;
-  };
-
-
-
-  /** That of a Law with the templates stress(H, P), energy(H) and tangent(H, C)
-   *  for a Number, as NeoHookean has them. */
-  template <typename Law>
-  class MaterialOf : public HyperelasticMaterial
-  {
-  public:
-    explicit MaterialOf(const Law &law)
-      : law(law)
+    /** That of a law with the templates stress(H, P), energy(H) and
+     *  tangent(H, C) for a Number, as NeoHookean has them. */
+    template <typename Law>
+    explicit HyperelasticMaterial(const Law &law)
+      : in_cells(law, law)
     {}
+
+    /** In cells of n = 2 x 2 x 2 points, or of 3 x 3 x 3. */
+    template <int n>
     void
-    stress(const PointValues<8> (&H)[3][3],
-           PointValues<8> (&P)[3][3],
-           PointValues<8> &W) const override
+    stress(const PointValues<n> (&H)[3][3],
+           PointValues<n> (&P)[3][3],
+           PointValues<n> &W) const
     {
-      law.stress(H, P);
-      W = law.energy(H);
+      std::get<InCell<n>>(in_cells).stress(H, P, W);
     }
+    template <int n>
     void
-    stress(const PointValues<27> (&H)[3][3],
-           PointValues<27> (&P)[3][3],
-           PointValues<27> &W) const override
+    tangent(const PointValues<n> (&H)[3][3],
+            PointValues<n> (&C)[3][3][3][3]) const
     {
-      law.stress(H, P);
-      W = law.energy(H);
-    }
-    void
-    tangent(const PointValues<8> (&H)[3][3],
-            PointValues<8> (&C)[3][3][3][3]) const override
-    {
-      law.tangent(H, C);
-    }
-    void
-    tangent(const PointValues<27> (&H)[3][3],
-            PointValues<27> (&C)[3][3][3][3]) const override
-    {
-      law.tangent(H, C);
+      std::get<InCell<n>>(in_cells).tangent(H, C);
     }
 
   private:
-    const Law law;
+    template <int n>
+    struct InCell
+    {
+      template <typename Law>
+      InCell(const Law &law)
+        : stress([law](const auto &H, auto &P, auto &W) {
+          law.stress(H, P);
+          W = law.energy(H);
+        })
+        , tangent([law](const auto &H, auto &C) { law.tangent(H, C); })
+      {}
+
+      using Gradient = PointValues<n>[3][3];
+      using Tangent  = PointValues<n>[3][3][3][3];
+      std::function<void(const Gradient &, Gradient &, PointValues<n> &)>
+                                                       stress;
+      std::function<void(const Gradient &, Tangent &)> tangent;
+    };
+
+    const std::tuple<InCell<8>, InCell<27>> in_cells;
   };
 
   template <typename Law>
   std::shared_ptr<const HyperelasticMaterial>
   material_of(const Law &law)
   {
-    return std::make_shared<MaterialOf<Law>>(law);
+    return std::make_shared<const HyperelasticMaterial>(law);
   }
 } // namespace Debond
 #endif

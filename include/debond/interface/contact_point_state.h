@@ -3,7 +3,7 @@
 
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/interface/interface_law.h>
-#include <debond/support/saved_state.h>
+#include <debond/support/serialization.h>
 
 #include <Eigen/Core>
 
@@ -87,7 +87,7 @@ namespace Debond
     /** Of the share of the point that is held, at the end of the step. */
     double damage = 0;
 
-    /** See saved_state.h. */
+    /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)

@@ -2,14 +2,11 @@
 #define debond_models_run_report_h
 
 #include <debond/output/console.h>
-#include <debond/output/interface_maps.h>
-#include <debond/output/profile_output.h>
+#include <debond/output/interface_tables.h>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,19 +18,17 @@ namespace Debond
   class RunReport
   {
   public:
-    RunReport(const Scene &scene, const ResultDirectory &directory);
+    /** Keeps references. */
+    RunReport(const Scene            &scene,
+              const ResultDirectory  &directory,
+              InterfaceTables::Points points);
 
-    /** Begins CurveAxes::rows_file() with the rows that there are already;
-     *  @p points are those of the interface at the last of them. */
+    /** Begins CurveAxes::rows_file() with the rows that there are already. */
     void
-    begin(const std::vector<TorqueRow> &rows,
-          const InterfaceMaps::Points  &points = {});
-    /** A new row, of @p n_steps planned ones (0: their number is not known).
-     *  @p points are those of the interface. */
+    begin(const std::vector<TorqueRow> &rows);
+    /** A new row, of @p n_steps planned ones (0: their number is not known). */
     void
-    add(const TorqueRow                                    &row,
-        unsigned int                                        n_steps,
-        const std::function<std::vector<InterfacePoint>()> &points);
+    add(const TorqueRow &row, unsigned int n_steps);
     /** Writes summary.json: the measures of the torque curve of all @p rows,
      *  and @p facts, which tell the effort and the end. Area and mean bonding
      *  of @p settings are set, where the scene does not observe the latter. */
@@ -47,20 +42,17 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &console &profiles &maps;
+      archive &console &tables;
     }
 
-    Console                    console;
-    std::optional<GrowingFile> torque_curve; ///< from begin() on
+    Console console;
 
   private:
     const Scene                             &scene;
     const ResultDirectory                   &directory;
     const std::map<std::string, std::string> files_of_reference;
     const ReferenceCurve                     reference;
-    ProfileOutput                            profiles;
-    InterfaceMaps                            maps;
-    InterfaceMaps::Points                    points_of_last_row;
+    InterfaceTables                          tables;
   };
 } // namespace Debond
 #endif

@@ -6,7 +6,7 @@
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/ranks.h>
-#include <debond/support/saved_state.h>
+#include <debond/support/serialization.h>
 #include <debond/system/coupled_system.h>
 #include <debond/system/step_control.h>
 #include <debond/system/step_solver.h>

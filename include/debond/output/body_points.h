@@ -1,6 +1,8 @@
 #ifndef debond_output_body_points_h
 #define debond_output_body_points_h
 
+#include <debond/bulk/bulk_space.h>
+
 #include <Eigen/Dense>
 
 #include <vector>
@@ -10,22 +12,42 @@ namespace Debond
   class Body;
   class Chuck;
 
-  /** From a body's frame to space: the implant's turns and moves with the
-   * chuck, the bone's stays. */
-  class BodyFrame
+  /** Displacement and stress within the cells of a body in the trial state, in
+   *  its own frame and in space: the implant's frame turns and moves with the
+   *  chuck, the bone's stays. Collective. */
+  class BodyFields
   {
   public:
-    BodyFrame(const Body &body, const Chuck &chuck);
+    BodyFields(const Body &body, const Chuck &chuck);
 
-    /** In space [mm], of a point X that has moved by @p v in the frame. */
-    Eigen::Vector3d
-    displacement(const Eigen::Vector3d &X, const Eigen::Vector3d &v) const;
-    /** Cauchy stress in space [MPa]. */
-    Eigen::Matrix3d
-    stress(const Eigen::Matrix3d &in_frame) const;
+    /** A point of a cell. */
+    struct Point
+    {
+      Eigen::Vector3d X = Eigen::Vector3d::Zero(); ///< reference position [mm]
+      Eigen::Vector3d v = Eigen::Vector3d::Zero(); ///< its motion in the frame
+      Eigen::Vector3d u;                           ///< in space [mm]
+      Eigen::Matrix3d sigma = Eigen::Matrix3d::Zero(); ///< Cauchy stress [MPa]
+      Eigen::Matrix3d stress;                          ///< the same in space
+    };
+    /** @p N: values of the functions of the cell at @p unit. The stress is
+     *  trilinear between the corners. */
+    Point
+    at(const BulkSpace::Cell                   &cell,
+       const dealii::Point<3>                  &unit,
+       const Eigen::Ref<const Eigen::VectorXd> &N) const;
+
+    /** Cauchy stress at the vertices, in the frame [MPa]. */
+    const std::vector<Eigen::Matrix3d> &
+    vertex_stress() const
+    {
+      return sigma;
+    }
 
   private:
-    const Chuck *const chuck; ///< null: the frame is that of space
+    const BulkSpace                   &space;
+    const Chuck *const                 chuck; ///< null: the frame is in space
+    const Eigen::VectorXd              v;
+    const std::vector<Eigen::Matrix3d> sigma;
   };
 
   /** What a body shows at points of its reference configuration, in space and
@@ -33,8 +55,7 @@ namespace Debond
   struct BodyPoints
   {
     /** @p points [mm], a column each. Not a number where the body is not.
-     *  The stress is that of bulk.pvd: trilinear between the corners of cells.
-     *  Collective. */
+     *  The stress is that of bulk.pvd. Collective. */
     BodyPoints(const Body             &body,
                const Chuck            &chuck,
                const Eigen::Matrix3Xd &points);

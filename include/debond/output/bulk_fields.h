@@ -1,8 +1,9 @@
 #ifndef debond_output_bulk_fields_h
 #define debond_output_bulk_fields_h
 
+#include <debond/output/drawn_patches.h>
+
 #include <array>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,6 @@ namespace Debond
 {
   class Body;
   class Chuck;
-  class NurbsSurface;
 
   /** The largest principal stress of the bone, and the vertex X of its mesh
    *  where it is; see Bulk::vertex_stress(). */
@@ -28,20 +28,14 @@ namespace Debond
     }
   };
 
-  /**
-   * The fields of both bodies in the trial state, class FieldOutput says which,
-   * drawn by dealii::DataOut. Of several ranks each has the cells of its own.
-   */
-  class BulkFields
+  /** The fields of both bodies in the trial state, class FieldOutput says
+   * which. Of several ranks each has the cells of its own. */
+  class BulkFields : public DrawnPatches<3>
   {
   public:
     /** @p bodies: bone, implant. Collective. */
     BulkFields(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
-    ~BulkFields();
 
-    /** The text of a VTU file. */
-    std::string
-    vtu() const;
     /** The text of a file that joins those of several ranks, given by their
      *  names. */
     std::string
@@ -54,28 +48,11 @@ namespace Debond
     }
 
   private:
-    class FieldsInSpace;
-    class JoinedDataOut;
-    class DrawnCells;
-
     void
-    add(const Body  &body,
-        const Chuck &chuck,
-        bool         has_curved_cells,
-        bool         draws_modulus);
+    draw(const Body &body, const Chuck &chuck, unsigned int n_of_curved_cells);
 
-    /** The first one has the patches of all. */
-    std::vector<std::unique_ptr<DrawnCells>> parts;
-    BoneTension                              largest_tension;
+    const bool  draws_modulus;
+    BoneTension largest_tension;
   };
-
-  /** Into how many pieces a cell is cut in each direction, so that there are
-   *  about @p across of them on the face: the fewer cells a disk has, the more
-   *  pieces it takes to look round. */
-  unsigned int
-  n_pieces(const NurbsSurface &surface,
-           unsigned int        across,
-           unsigned int        least,
-           unsigned int        most);
 } // namespace Debond
 #endif

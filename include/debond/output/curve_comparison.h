@@ -65,6 +65,9 @@ namespace Debond
     /** What may be wrong with the measured curve: its units, its sign. */
     std::vector<std::string> remarks;
     std::string              why_none; ///< no row is used; else empty
+    /** The summary of a torque curve that does not turn on says so by itself.
+     */
+    bool is_said = false;
 
     /** The remark on torques that do not resist the rotation. */
     static std::string

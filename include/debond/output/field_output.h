@@ -26,8 +26,8 @@ namespace Debond
    * is x - X in space, the rigid motion of the implant included: the filter
    * Warp By Vector shows the deformed state. Splines and quadratic elements are
    * cells of degree 2. Trilinear elements at a curved contact surface are drawn
-   * in pieces, by polynomials that interpolate the model (1e-5 mm for a coin);
-   * the contact surface is drawn as the model has it, in more pieces.
+   * in pieces, the contact surface itself in more; all points are where the
+   * model has them.
    *
    * doc/reference/results.md says which arrays there are. Those of the
    * interface are known at the quadrature points, which points-NNNN.vtu has as

@@ -6,14 +6,12 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace Debond
 {
   class ContactInterface;
-  class ResultDirectory;
   struct Scene;
 
   /** A point of the interface in profiles.csv, by the columns behind the angle:
@@ -23,6 +21,12 @@ namespace Debond
    *  that the point stands for [mm^2], the parts of the bond that opening and
    *  slip have left (BondLeft), PointTraction::mode_deg() [deg]. */
   using InterfacePoint = std::array<double, 13>;
+
+  /** Their names. */
+  constexpr const char *interface_columns =
+    "x_mm,y_mm,r_mm,pressure_MPa,traction_MPa,slip_mm,phi,mu,state,area_mm2,"
+    "left_by_opening,left_by_slip,mode_deg";
+  constexpr unsigned int column_of_state = 8;
 
   /** Those of the slave points that face the implant, in the trial state. */
   std::vector<InterfacePoint>
@@ -49,49 +53,5 @@ namespace Debond
    */
   nlohmann::ordered_json
   compare_profiles(const Profiles &profiles, const Profiles &reference);
-
-
-
-  /**
-   * profiles.csv, an InterfacePoint a line at the rows whose angle first
-   * reaches one of `Output / Profile angles`, and friction_law.csv.
-   */
-  class ProfileOutput
-  {
-  public:
-    ProfileOutput(const Scene &scene, const ResultDirectory &directory);
-
-    /** Adds the @p points of a row, if its angle [deg] reaches a profile angle;
-     *  only then they are asked for. */
-    void
-    write(double                                              angle_deg,
-          const std::function<std::vector<InterfacePoint>()> &points);
-
-    /** Writes profiles.csv, if there is any angle to write about. Returns a
-     *  warning about angles that were never reached, or nothing. */
-    std::string
-    finish();
-
-    /** Distance of the written profiles from `Output / Reference profiles`;
-     *  undefined without any. To be called after finish(). */
-    nlohmann::ordered_json
-    measures() const;
-
-    /** See serialization.h. */
-    template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
-    {
-      archive &angles_to_come &has_points &table;
-    }
-
-  private:
-    const ResultDirectory &directory;
-    std::vector<double>    angles_to_come; ///< ascending [deg]
-    const Profiles         reference;      ///< empty: none
-    bool                   wanted;
-    bool                   has_points = false;
-    std::string            table;
-  };
 } // namespace Debond
 #endif

@@ -3,7 +3,6 @@
 
 #include <debond/bulk/chuck.h>
 #include <debond/output/curve_comparison.h>
-#include <debond/output/profile_output.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -81,7 +80,7 @@ namespace Debond
     /** At the beginning of the step, of the parabola from @p before that has
      * the rates at the end. */
     Rates
-    rates_of_parabola(TorqueRow before) const;
+    rates_of_parabola(const TorqueRow &before) const;
     /** Calls visit(value) for what Rates are of. */
     template <typename Row, typename Visitor>
     static void
@@ -148,12 +147,13 @@ namespace Debond
 
   /** A row of torque.csv, with twelve significant digits. */
   std::string
-  torque_line(TorqueRow row);
+  torque_line(const TorqueRow &row);
 
   /** The text of torque.csv: a line with the names of the columns, then the
-   *  rows. */
+   *  rows; or that of curve.csv, @p of_curve: time, angle, torque, force and
+   *  place of the chuck. */
   std::string
-  torque_table(const std::vector<TorqueRow> &rows);
+  torque_table(const std::vector<TorqueRow> &rows, bool of_curve = false);
 
 
 
@@ -165,11 +165,6 @@ namespace Debond
    */
   std::vector<TorqueRow>
   fine_curve(const std::vector<TorqueRow> &rows);
-
-  /** The text of curve.csv: time, angle, torque, force and place of the chuck
-   *  along a fine_curve(). */
-  std::string
-  curve_table(const std::vector<TorqueRow> &fine);
 
   /** Where a fine_curve() goes through @p angles [deg], or begins to turn from
    *  them, in its order; linear between its rows. */

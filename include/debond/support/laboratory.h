@@ -16,16 +16,12 @@ namespace Debond
     become(const std::string &command, const std::vector<std::string> &words);
 
     /** Runs that command and waits for its end; returns its exit code, or 127
-     *  if Python cannot be started. Its own words go where this process's go.
-     */
-    int
-    run(const std::string &command, const std::vector<std::string> &words);
-
-    /** The same, and what it has written to its standard output. */
+     *  if Python cannot be started. What it writes to its standard output goes
+     *  to @p output, or where this process's goes. */
     int
     run(const std::string              &command,
         const std::vector<std::string> &words,
-        std::string                    &output);
+        std::string                    *output = nullptr);
 
     /** What is missing if Python cannot be started. */
     extern const char *const what_it_needs;

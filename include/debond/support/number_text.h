@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <locale>
-#include <ostream>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -24,26 +23,6 @@ namespace Debond
     {
       this->imbue(std::locale::classic());
     }
-  };
-
-  /** From here to the end of the block that is so with a stream of someone
-   *  else. */
-  class ClassicNumbers
-  {
-  public:
-    explicit ClassicNumbers(std::ostream &stream)
-      : stream(stream)
-      , before(stream.imbue(std::locale::classic()))
-    {}
-    ClassicNumbers(const ClassicNumbers &) = delete;
-    ~ClassicNumbers()
-    {
-      stream.imbue(before);
-    }
-
-  private:
-    std::ostream     &stream;
-    const std::locale before;
   };
 
   /** A number in a format of std::to_chars, which knows no locale. */

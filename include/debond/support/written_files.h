@@ -1,9 +1,6 @@
 #ifndef debond_support_written_files_h
 #define debond_support_written_files_h
 
-#include <debond/support/number_text.h>
-
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,27 +43,10 @@ namespace Debond
   void
   put_on_disk(const std::string &filename);
 
-  /** A file that grows by whole texts. */
-  class GrowingFile
-  {
-  public:
-    /** Begins the file anew with this text. Throws WriteError. */
-    GrowingFile(const std::string &filename, const std::string &text);
-
-    /** Appends all of @p text, which is then with the system, or nothing:
-     *  throws WriteError. */
-    void
-    append(const std::string &text);
-
-    /** Nothing more is to come. Throws WriteError if the system says only now
-     *  that it could not write all. */
-    void
-    finish();
-
-  private:
-    const std::string      filename;
-    Classic<std::ofstream> file;
-  };
+  /** Appends all of @p text to a file, which is then with the system, or
+   *  nothing: throws WriteError. */
+  void
+  append_to_file(const std::string &filename, const std::string &text);
 
   /** Keeps other processes out of a directory of results as long as it lives.
    *  Children of the process inherit it, programs that it starts do not; it

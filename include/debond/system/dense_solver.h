@@ -1,7 +1,7 @@
 #ifndef debond_system_dense_solver_h
 #define debond_system_dense_solver_h
 
-#include <debond/support/saved_state.h>
+#include <debond/support/serialization.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

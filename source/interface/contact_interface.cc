@@ -46,9 +46,9 @@ namespace Debond
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         static_cast<SurfaceQuadraturePoint &>(points[q]) = places[q];
-        points[q].accepted.internal = law.joint->friction->initial_variables();
+        points[q].accepted.internal = law.joint->friction->initial_variables;
       }
-    if (law.joint->is_cohesive())
+    if (law.joint->cohesion)
       shares.resize(points.size());
     for (const Side side : both_sides)
       // no forces before the first evaluate()

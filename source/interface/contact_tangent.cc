@@ -1,3 +1,4 @@
+#include <debond/interface/bilinear_bond.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/point_tangent.h>
 
@@ -433,8 +434,9 @@ namespace Debond
   {
     const SlavePoint          &point = points[q];
     const CohesiveShare       &share = shares[q];
-    const Matrix<double, 9, 1> d =
-      point.JxW * law.joint->length_of_damage() * share.ddamage.transpose();
+    const Matrix<double, 9, 1> d     = point.JxW *
+                                   law.joint->cohesion->length_of_damage() *
+                                   share.ddamage.transpose();
     spread(point.basis, d.head<3>(), gradient[slave]);
     ControlNet &master = gradient[master_side()];
     for (unsigned int b = 0; b < share.basis.size; ++b)
@@ -468,13 +470,14 @@ namespace Debond
           continue;
         area += point.JxW;
         result.value +=
-          point.JxW * (law.joint->is_cohesive() ?
-                         law.joint->length_of_damage() * trial.state.damage :
-                         trial.state.slip + law.joint->opened(trial.state));
+          point.JxW *
+          (law.joint->cohesion ?
+             law.joint->cohesion->length_of_damage() * trial.state.damage :
+             trial.state.slip + law.joint->opened(trial.state));
         if (!shares.empty() && shares[q].holds)
           add_path_of_share(q, result.gradient);
-        if (law.joint->is_cohesive() ||
-            trial.state.status == PointStatus::open || trial.dpath.isZero(0.))
+        if (law.joint->cohesion || trial.state.status == PointStatus::open ||
+            trial.dpath.isZero(0.))
           continue;
         const Matrix<double, W::size, 1> d =
           point.JxW * trial.dpath.transpose();
@@ -508,7 +511,7 @@ namespace Debond
   double
   ContactInterface::path_left() const
   {
-    if (!law.joint->is_cohesive())
+    if (!law.joint->cohesion)
       return std::numeric_limits<double>::infinity();
     double left = 0., area = 0.;
     for (const SlavePoint &point : points)
@@ -518,6 +521,6 @@ namespace Debond
           if (point.trial.state.joined && point.phi_0 > 0.)
             left += point.JxW * (1. - point.trial.state.damage);
         }
-    return law.joint->length_of_damage() * left / area;
+    return law.joint->cohesion->length_of_damage() * left / area;
   }
 } // namespace Debond

@@ -19,15 +19,15 @@ namespace Debond
 {
   namespace
   {
-    /** phi and mu from g_s = 0 to 1.5 times the distance after which no bond is
-     *  left. */
+    /** phi, and mu at 1 MPa, from g_s = 0 to 1.5 times the distance after which
+     *  no bond is left. */
     std::string
     friction_law_table(const InterfaceParameters &interface)
     {
       constexpr unsigned int n        = 600;
       const FrictionLaw     &friction = *interface.friction;
-      const FrictionState    start{interface.bonding.initial_bonding};
-      const double           end     = 1.5 * friction.kinks().back();
+      const PointStart       start{interface.bonding.initial_bonding};
+      const double           end     = 1.5 * friction.kinks.back();
       const double           initial = friction.coefficient(start, 0.).mu;
       std::string            table   = "slip_mm,phi,mu,mu_over_initial\n";
       for (unsigned int i = 0; i <= n; ++i)
@@ -87,8 +87,8 @@ namespace Debond
                              coefficient.mu,
                              double(interface.status(point)),
                              point.JxW,
-                             left.by_opening,
-                             left.by_slip,
+                             left[0],
+                             left[1],
                              traction.mode_deg()}});
         }
     return points;

@@ -34,7 +34,7 @@ namespace Debond
   CoupledSystem::find_sectors(const unsigned int most) const
   {
     if (!load_is_axial || bone.whole() || interface.get_law().pulls() ||
-        interface.get_law().is_cohesive() ||
+        interface.get_law().cohesion ||
         chuck.reference_centre().head<2>().norm() > 1e-12 * R)
       return {};
     // Of the master a point in each element is enough to know its functions.

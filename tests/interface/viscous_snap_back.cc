@@ -7,7 +7,7 @@
 // integrated in time by Boost; and the smaller the viscosity, the closer its
 // work comes to the energy that the closed form of the jump releases.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/models/closed_forms.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -79,7 +79,7 @@ public:
     for (std::size_t i = 0; i < radius.size(); ++i)
       {
         const double over = eps * (radius[i] * theta - state[i]) -
-                            friction->coefficient({1., state[i]}, 0.).mu * p;
+                            friction->coefficient({1., {state[i]}}, 0.).mu * p;
         rate[i] = std::max(0., over) / viscosity;
         rate.back() += weight[i] * viscosity * rate[i] * rate[i];
       }
@@ -211,8 +211,8 @@ check_limit()
   parameters.friction  = brittle();
   const RigidBodiesTorsion      bodies(parameters);
   const CompliantMachineTorsion machine(bodies, k, turning);
-  const double released = machine.jumps.at(0).released_energy;
-  const auto   over     = [&](const double viscosity) {
+  const double                  released = machine.jumps.at(0).released_energy;
+  const auto                    over     = [&](const double viscosity) {
     return Rings(viscosity).integrate({0., 1.}).second / released;
   };
   report("viscous work over the energy released without, eta = 0.001, from 1",

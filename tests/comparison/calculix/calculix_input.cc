@@ -46,7 +46,7 @@ Writes a scene of debond as an input of CalculiX.
 
     const FrictionLaw       &friction = *scene.interface.friction;
     const BondingParameters &bonding  = scene.interface.bonding;
-    if (friction.depends_on_rate())
+    if (friction.depends_on_rate)
       throw InputError(cannot + "a friction law that depends on the rate");
     if (friction.has_bond() && bonding.initial_bonding != 0 &&
         bonding.bonded_fraction != 0)
@@ -54,7 +54,7 @@ Writes a scene of debond as an input of CalculiX.
                        "a friction coefficient that changes with sliding: "
                        "expected Interface / Friction law = coulomb or "
                        "frictionless, or equal coefficients");
-    if (!friction.is_frictionless() &&
+    if (!friction.is_frictionless &&
         scene.interface.friction_starts_at > scene.load_steps.times.front())
       throw InputError(cannot +
                        "Interface / Friction starts at after the first time");

@@ -2,6 +2,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/rigid_motion.h>
+#include <debond/interface/slip_problem.h>
 
 #include <Eigen/Geometry>
 

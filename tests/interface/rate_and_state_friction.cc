@@ -361,10 +361,9 @@ check_aged_point()
           continue;
         n_slips += result.state.status == PointStatus::slip;
         const double limit =
-          p *
-          law.joint->friction
-            ->coefficient(law.joint->begin(state, 1., duration).friction(), 0.)
-            .mu;
+          p * law.joint->friction
+                ->coefficient(law.joint->begin(state, 1., duration), 0.)
+                .mu;
         const double direct = p * 0.02 * std::log1p(pulled / (1e-3 * duration));
         grow(beyond, result.tangential_traction.norm() - limit - direct);
         grow(against, -result.tangential_traction.dot(result.slip_increment));

@@ -211,8 +211,8 @@ check_limit()
   parameters.friction  = brittle();
   const RigidBodiesTorsion      bodies(parameters);
   const CompliantMachineTorsion machine(bodies, k, turning);
-  const double                  released = machine.jumps.at(0).released_energy;
-  const auto                    over     = [&](const double viscosity) {
+  const double released = machine.jumps.at(0).released_energy;
+  const auto   over     = [&](const double viscosity) {
     return Rings(viscosity).integrate({0., 1.}).second / released;
   };
   report("viscous work over the energy released without, eta = 0.001, from 1",

@@ -106,8 +106,9 @@ check_constant_friction()
     }
   report("relative deviation from the elementary formula", largest, 1e-12);
 
-  auto frictionless     = paper();
-  frictionless.friction = Debond::frictionless();
+  auto frictionless = paper();
+  frictionless.friction =
+    Debond::modified_coulomb({}, Debond::ModifiedCoulomb::Coefficients::none);
   report("torque without friction",
          std::abs(RigidBodiesTorsion(frictionless).torque(degree)),
          1e-12);

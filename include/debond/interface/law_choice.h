@@ -1,8 +1,6 @@
 #ifndef debond_interface_law_choice_h
 #define debond_interface_law_choice_h
 
-#include <debond/input/scene_file.h>
-
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,6 +9,7 @@
 namespace Debond
 {
   class EntryTable;
+  struct SceneEntry;
 
   /** A law that scenes can choose, with its parameters. A copy has a law of its
    *  own, as copies of a scene have. */

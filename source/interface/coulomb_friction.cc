@@ -158,7 +158,7 @@ namespace Debond
   // from entries. Laws are shared and never change: all points refer to one
   // object.
   FrictionLawPointer
-  modified_coulomb(const ModifiedCoulombParameters    &parameters,
+  modified_coulomb(const ModifiedCoulombParameters     parameters,
                    const ModifiedCoulomb::Coefficients coefficients)
   {
     const auto law =

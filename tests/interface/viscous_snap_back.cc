@@ -151,7 +151,7 @@ deviation(const double viscosity, const unsigned int n_steps)
 {
   const auto rows =
     run_scene("viscous_snap_back",
-              scene_text,
+              ::scene_text,
               {"Interface/Viscosity=" + std::to_string(viscosity),
                "Load steps/Steps=1," + std::to_string(n_steps)});
   std::vector<double> times;

@@ -61,8 +61,8 @@ namespace Debond
 
 
   FrictionLawPointer
-  modified_coulomb(const ModifiedCoulombParameters &parameters = {},
-                   ModifiedCoulomb::Coefficients    coefficients =
+  modified_coulomb(ModifiedCoulombParameters     parameters = {},
+                   ModifiedCoulomb::Coefficients coefficients =
                      ModifiedCoulomb::Coefficients::two);
 
   /** Coulomb's law, whose @p mu no bond changes. The bond is reported as with

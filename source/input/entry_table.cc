@@ -39,12 +39,14 @@ namespace Debond
     const std::string refusal = allowed.refusal(value);
     if (!refusal.empty())
       entry.refuse(refusal);
-    numbers[entry.full_name()] = rows.size();
-    rows.push_back({entry, allowed});
-    prm.declare_entry(name,
-                      value,
-                      dealii::Patterns::Anything(),
-                      documentation + "\nAllowed: " + allowed.description);
+    if (numbers.emplace(entry.full_name(), rows.size()).second)
+      {
+        rows.push_back({entry, allowed});
+        prm.declare_entry(name,
+                          value,
+                          dealii::Patterns::Anything(),
+                          documentation + "\nAllowed: " + allowed.description);
+      }
     if (set)
       prm.add_action(name, set);
   }

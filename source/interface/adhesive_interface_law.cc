@@ -1,5 +1,8 @@
-#include <debond/interface/bond_friction.h>
+#include <debond/input/allowed_values.h>
+#include <debond/input/entry_table.h>
 #include <debond/interface/interface_law.h>
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +22,7 @@ namespace Debond
     //   phi = phi_0 s(g_s) d(kappa)
     //   p = -eps_n g_n                           for g_n <= 0
     //   p = -phi_0 s K g_n, K = sigma_e(kappa)/kappa     for g_n > 0
-    //   L = mu(phi) max(0, p + c phi t_0)
+    //   L = L(max(0, p + c phi t_0), phi)
     //
     // with kappa the largest gap since the point has been closed: on the
     // envelope while the gap grows, else straight to the origin. A viscosity
@@ -27,38 +30,105 @@ namespace Debond
     class Adhesive : public InterfaceLaw
     {
     public:
-      Adhesive(const LawChoice                    &choice,
-               const InterfaceLawParts            &parts,
-               std::shared_ptr<const BondFriction> bond)
-        : InterfaceLaw(parts)
-        , t_0(choice.number("Strength"))
-        , g_0(choice.number("Gap at strength"))
-        , c(choice.number("Adhesive friction"))
-        , eta(choice.number("Opening viscosity"))
-        , bond(std::move(bond))
-      {}
+      void
+      declare(EntryTable &table) override
+      {
+        table.enter_subsection("Adhesive");
+        table.add("Strength",
+                  t_0,
+                  Allowed::number_between(1e-9, 1e6, "MPa").or_number(0),
+                  "t_0 [MPa]: the largest pull across a full bond. 0: as Law = "
+                  "friction.");
+        table.add("Gap at strength",
+                  g_0,
+                  Allowed::number_between(1e-9, 1e3, "mm"),
+                  "g_0 [mm]: gap at the largest pull. The work of adhesion is "
+                  "e t_0 g_0 [N/mm], the initial stiffness of the bond e t_0 / "
+                  "g_0.");
+        table.add("Adhesive friction",
+                  c,
+                  Allowed::number_between(0, 1, ""),
+                  "c, dimensionless: share of the strength that is added to "
+                  "the pressure in friction, mu (p + c phi t_0).");
+        table.add("Opening viscosity",
+                  eta,
+                  Allowed::number_between(1e-15,
+                                          1e15,
+                                          "MPa per (mm per unit of time)")
+                    .or_number(0),
+                  "eta [MPa per (mm per unit of time)]: a bond that opens with "
+                  "the speed v has an additional pull of phi eta v. A bond "
+                  "that would open in a jump opens in time instead, and "
+                  "results depend on the rate.");
+        table.leave_subsection();
+      }
 
+      bool
+      initialise() override
+      {
+        if (t_0 == 0.)
+          return false;
+        require_bond("adhesive");
+        // the pull falls steepest at 2 g_0
+        tension = {
+          t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0), g_0, eta};
+        characteristic_distance =
+          std::min(g_0, friction->characteristic_distance);
+        return true;
+      }
+
+      // In the place of Eqs. (28) and (30). Both p and L follow the bond, which
+      // is that at the end of the step: opening damages it by kappa, slip by s,
+      // and each softens what the other one meets.
       InterfaceResponse
       respond(const PointStart &start,
               const double      g_n,
               const double      distance) const override
       {
-        const Bond        now(*this, start, g_n, distance);
-        InterfaceResponse result = without_viscosity(start, now, g_n);
-        // what begins to move, whichever way, has the tangent of what opens
-        const double before = std::max(0., start.history.normal_gap),
-                     moved  = before < PointHistory::far ? g_n - before : 0.,
-                     opened = std::max(0., moved);
-        if (now.holds && start.duration > 0. &&
-            std::min(g_n, moved) > -touching * g_0)
+        const bool is_held      = holds(start.history, start.phi_0),
+                   grows        = is_held && g_n > start.history.damage;
+        const double      kappa = grows ? g_n : start.history.damage;
+        const Changing    s     = bond_after(start, distance); // phi_0 s
+        InterfaceResponse result;
+        if (g_n > 0. && is_held)
           {
-            const double resistance = eta / start.duration;
-            result.viscous_pressure = -now.phi * resistance * opened;
-            result.pressure += result.viscous_pressure;
-            result.pressure_by_gap -=
-              resistance * (now.phi + now.phi_by_gap * opened);
-            result.pressure_by_slip -= resistance * now.phi_by_slip * opened;
+            // on the envelope K falls as the gap grows, dK/dg_n = -K/g_0
+            const double K          = s[0] * pull(kappa);
+            result.pressure         = -K * g_n;
+            result.pressure_by_gap  = -K * (grows ? 1. - g_n / g_0 : 1.);
+            result.pressure_by_slip = -s[2] * pull(kappa) * g_n;
+            // what is given up at the end of the step has become damage
+            result.energy = kappa > gone() ? 0. : 0.5 * K * g_n * g_n;
           }
+        else
+          {
+            result.pressure        = -stiffness * g_n;
+            result.pressure_by_gap = -stiffness;
+            if (g_n < 0.)
+              result.energy = 0.5 * stiffness * g_n * g_n;
+          }
+        // The tangent of faces that touch, whichever way they will go: with the
+        // softer one the first correction may go beyond the largest pull.
+        if (is_held && std::abs(g_n) < touching * g_0)
+          result.pressure_by_gap = -std::max(stiffness, s[0] * pull(kappa));
+        // not by what p and L are at the end: that would be a jump within the
+        // step
+        result.resists = is_held || result.pressure > 0.;
+        // d = x exp(1 - x) beyond g_0
+        const double   d = left(kappa), by_kappa = grows && kappa > g_0 ?
+                                                     d * (1. / kappa - 1. / g_0) :
+                                                     0.;
+        const Changing phi(s[0] * d, s[0] * by_kappa, s[2] * d),
+          pressed = Changing(result.pressure,
+                             result.pressure_by_gap,
+                             result.pressure_by_slip) +
+                    c * t_0 * phi;
+        // it is zero beyond g_0 for c = 1, but for rounding
+        if (pressed[0] >
+            1e-14 * std::max(std::abs(result.pressure), c * t_0 * phi[0]))
+          rub(start, distance, pressed, phi, result);
+        if (is_held)
+          add_viscosity(start, g_n, phi, result);
         return result;
       }
 
@@ -72,6 +142,8 @@ namespace Debond
                  0.;
       }
 
+      // The first closing is what glues the faces: a gap before that has
+      // damaged nothing.
       PointHistory
       advance(const PointStart &start,
               const double      g_n,
@@ -104,10 +176,8 @@ namespace Debond
            const double      g_n,
            const double      distance) const override
       {
-        const double            g_start = start.history.normal_gap;
-        const InterfaceResponse begin   = respond(start, g_start, 0.),
-                                end     = respond(start, g_n, distance);
-        PointWork result;
+        const double g_start = start.history.normal_gap;
+        PointWork    result;
         if (!start.frictionless && distance > 0.)
           {
             const double before   = integrated_limit(start, g_start, distance),
@@ -115,156 +185,90 @@ namespace Debond
             result.friction       = 0.5 * (before + after);
             result.friction_bound = 0.5 * std::abs(before - after);
           }
-        const Bond before(*this, start, g_start, 0.),
-          now(*this, start, g_n, distance);
-        if (now.holds)
+        if (holds(start.history, start.phi_0))
           {
-            const double e_n = stored(before.kappa, g_start),
-                         e   = stored(now.kappa, g_n);
-            result.damage    = 0.5 * (before.phi_0_s + now.phi_0_s) *
-                              (spent(now.kappa) - spent(before.kappa)) -
-                            0.5 * (now.phi_0_s - before.phi_0_s) * (e_n + e);
-            if (now.kappa > gone()) // nothing gives the rest back
-              result.damage += now.phi_0_s * e;
+            const double kappa_n = std::max(start.history.damage, g_start),
+                         kappa   = std::max(start.history.damage, g_n),
+                         s_n     = bond_after(start, 0.)[0],
+                         s       = bond_after(start, distance)[0],
+                         e_n = stored(kappa_n, g_start), e = stored(kappa, g_n);
+            result.damage = 0.5 * (s_n + s) * (spent(kappa) - spent(kappa_n)) -
+                            0.5 * (s - s_n) * (e_n + e);
+            if (kappa > gone()) // nothing gives the rest back
+              result.damage += s * e;
           }
-        const double pressed =
-          0.5 * (std::max(0., begin.pressure) + std::max(0., end.pressure));
-        result.adhesive =
-          result.damage +
-          (start.frictionless ?
-             0. :
-             (0.5 * (begin.limit + end.limit) - bond->mu_b * pressed) *
-               distance);
+        result.adhesive = result.damage;
+        if (!start.frictionless)
+          for (const auto &[gap, slid] :
+               {std::pair(g_start, 0.), std::pair(g_n, distance)})
+            {
+              const InterfaceResponse end = respond(start, gap, slid);
+              const double            unbonded =
+                end.pressure > 0. ?
+                             friction->limit(start, 0., end.pressure, slid).value :
+                             0.;
+              result.adhesive += 0.5 * (end.limit - unbonded) * distance;
+            }
         return result;
       }
 
       // As p + c phi t_0 <= p + c t_0; that the pull falls with the bond raises
-      // L.
+      // L. Where dL/dp falls with the pressure that of now counts, too: of what
+      // is to come it is no bound then.
       double
       softening_by_slip(const PointStart &start,
                         const double      pressure,
-                        const double) const override
+                        const double      distance) const override
       {
-        const PointHistory &history = start.history;
-        const double        mu_ub   = bond->mu_b + bond->drop;
-        return history.bond_left(start.phi_0) * left(history.damage) *
-               bond->steepest_decay(history.slip) *
-               std::max(0.,
-                        bond->drop * (std::max(0., pressure) + c * t_0) +
-                          mu_ub * c * t_0);
+        const double bonded = start.bond_left() * left(start.history.damage),
+                     slip = start.history.slip, held = c * t_0,
+                     now = pressure + held * bonded *
+                                        friction->decay(slip + distance).value,
+                     most = std::max(0., pressure) + held;
+        if (!(most > 0.))
+          return 0.;
+        const FrictionLimit L = friction->limit(start, 1., most, distance);
+        double              by_pressure = L.by_pressure;
+        if (now > 0.)
+          by_pressure =
+            std::max(by_pressure,
+                     friction->limit(start, 1., now, distance).by_pressure);
+        return bonded * friction->decay(slip).steepest *
+               std::max(0., L.by_bond + held * by_pressure);
       }
 
       FrictionCoefficient
-      reported(const PointHistory &history, const double phi_0) const override
+      reported(const PointHistory &history,
+               const double        phi_0,
+               const double        pressure) const override
       {
-        double              slope;
-        FrictionCoefficient result;
-        result.phi = history.bond_left(phi_0) * left(history.damage) *
-                     bond->decay(history.slip, slope);
-        result.mu = bond->mu_b + result.phi * bond->drop;
-        return result;
-      }
-
-      // it falls steepest at 2 g_0
-      Tension
-      tension() const override
-      {
-        return {
-          t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0), g_0, eta};
-      }
-      double
-      opened(const PointHistory &history) const override
-      {
-        return history.damage;
-      }
-      double
-      characteristic_distance() const override
-      {
-        return std::min(g_0, bond->characteristic_distance());
+        const double d   = left(history.damage),
+                     phi = history.bond_left(phi_0) * d *
+                           friction->decay(history.slip).value;
+        return InterfaceLaw::reported(history,
+                                      phi_0 * d,
+                                      pressure + c * phi * t_0);
       }
 
     private:
-      /** The bond of a point at the end of a step. */
-      struct Bond
+      /** A pull by the speed of opening, beside the rest. What begins to move,
+       *  whichever way, has the tangent of what opens. */
+      void
+      add_viscosity(const PointStart  &start,
+                    const double       g_n,
+                    const Changing    &phi,
+                    InterfaceResponse &response) const
       {
-        Bond(const Adhesive   &law,
-             const PointStart &start,
-             const double      g_n,
-             const double      distance)
-          : holds(law.holds(start.history, start.phi_0))
-          , grows(holds && g_n > start.history.damage)
-          , kappa(grows ? g_n : start.history.damage)
-        {
-          const double slip = start.frictionless ? 0. : std::max(0., distance);
-          double       s_by_slip;
-          phi_0_s = start.history.bond_left(start.phi_0) *
-                    law.bond->decay(start.history.slip + slip, s_by_slip);
-          const bool moves = !start.frictionless && distance >= 0.;
-          s_slope =
-            moves ? start.history.bond_left(start.phi_0) * s_by_slip : 0.;
-          const double d = law.left(kappa);
-          phi            = phi_0_s * d;
-          phi_by_slip    = s_slope * d;
-          // d = x exp(1 - x) beyond g_0
-          phi_by_gap =
-            grows && kappa > law.g_0 ? phi * (1. / kappa - 1. / law.g_0) : 0.;
-        }
-
-        bool   holds;                        ///< in tension, too
-        bool   grows;                        ///< opens further than it has been
-        double kappa;                        ///< [mm]
-        double phi_0_s, s_slope;             ///< by the distance
-        double phi, phi_by_slip, phi_by_gap; ///< [1, 1/mm, 1/mm]
-      };
-
-      /** What is not made up by speed. */
-      InterfaceResponse
-      without_viscosity(const PointStart &start,
-                        const Bond       &now,
-                        const double      g_n) const
-      {
-        InterfaceResponse result;
-        if (g_n > 0. && now.holds)
-          {
-            // on the envelope K falls as the gap grows, dK/dg_n = -K/g_0
-            const double K          = now.phi_0_s * pull(now.kappa);
-            result.pressure         = -K * g_n;
-            result.pressure_by_gap  = -K * (now.grows ? 1. - g_n / g_0 : 1.);
-            result.pressure_by_slip = -now.s_slope * pull(now.kappa) * g_n;
-            // what is given up at the end of the step has become damage
-            result.energy = now.kappa > gone() ? 0. : 0.5 * K * g_n * g_n;
-          }
-        else
-          {
-            result.pressure        = -stiffness * g_n;
-            result.pressure_by_gap = -stiffness;
-            if (g_n < 0.)
-              result.energy = 0.5 * stiffness * g_n * g_n;
-          }
-        // The tangent of faces that touch, whichever way they will go: with the
-        // softer one the first correction may go beyond the largest pull.
-        if (now.holds && std::abs(g_n) < touching * g_0)
-          result.pressure_by_gap =
-            -std::max(stiffness, now.phi_0_s * pull(now.kappa));
-        // not by what p and L are at the end: that would be a jump within the
-        // step
-        result.resists = now.holds || result.pressure > 0.;
-        if (start.frictionless)
-          return result;
-        // what is pressed, or held, across the interface
-        const double cohesion = c * now.phi * t_0,
-                     held     = result.pressure + cohesion;
-        if (held > rounding * std::max(std::abs(result.pressure), cohesion))
-          {
-            const double mu    = bond->mu_b + now.phi * bond->drop,
-                         slope = bond->drop * held + mu * c * t_0; // by phi
-            result.limit       = mu * held;
-            result.limit_by_gap =
-              mu * result.pressure_by_gap + slope * now.phi_by_gap;
-            result.limit_by_slip =
-              mu * result.pressure_by_slip + slope * now.phi_by_slip;
-          }
-        return result;
+        const double before = std::max(0., start.history.normal_gap),
+                     moved  = before < PointHistory::far ? g_n - before : 0.,
+                     opened = std::max(0., moved);
+        if (!(start.duration > 0.) || std::min(g_n, moved) <= -touching * g_0)
+          return;
+        const double resistance   = eta / start.duration;
+        response.viscous_pressure = -phi[0] * resistance * opened;
+        response.pressure += response.viscous_pressure;
+        response.pressure_by_gap -= resistance * (phi[0] + phi[1] * opened);
+        response.pressure_by_slip -= resistance * phi[2] * opened;
       }
 
       /** Integral of L over the @p distance at a gap, by Simpson's rule [N/mm].
@@ -274,14 +278,12 @@ namespace Debond
                        const double      g_n,
                        const double      distance) const
       {
-        constexpr unsigned int n   = 32;
-        double                 sum = 0.;
-        for (unsigned int i = 0; i <= n; ++i)
-          sum += (i == 0 || i == n ? 1. :
-                  i % 2 == 1       ? 4. :
-                                     2.) *
-                 respond(start, g_n, distance * i / n).limit;
-        return sum * distance / (3. * n);
+        static const dealii::QIterated<1> simpson(dealii::QSimpson<1>(), 16);
+        double                            mean = 0.;
+        for (unsigned int q = 0; q < simpson.size(); ++q)
+          mean += simpson.weight(q) *
+                  respond(start, g_n, distance * simpson.point(q)[0]).limit;
+        return mean * distance;
       }
 
       /** Whether a point with this history is bonded. */
@@ -330,13 +332,10 @@ namespace Debond
         return 20. * g_0;
       }
 
-      // of p + c phi t_0, which is zero beyond g_0 for c = 1
-      static constexpr double rounding = 1e-14;
-      // in parts of g_0
-      static constexpr double touching = 1e-9;
+      static constexpr double touching = 1e-9; ///< in parts of g_0
 
-      const double                              t_0, g_0, c, eta;
-      const std::shared_ptr<const BondFriction> bond;
+      double t_0 = 5, g_0 = 0.005; ///< [MPa], [mm]
+      double c = 1, eta = 0; ///< dimensionless, [MPa per (mm per unit of time)]
     };
   } // namespace
 
@@ -345,42 +344,10 @@ namespace Debond
   InterfaceLawPlugin
   adhesive_interface_law_plugin()
   {
-    const std::string subsection = "Adhesive";
     return {
       "adhesive",
       "a bond with strength in tension, exponential and irreversible, that also "
       "adds to friction",
-      {{subsection,
-        "Strength",
-        "5",
-        Allowed::number_between(1e-9, 1e6, "MPa").or_number(0),
-        "t_0 [MPa]: the largest pull across a full bond. 0: as Law = "
-        "friction."},
-       {subsection,
-        "Gap at strength",
-        "0.005",
-        Allowed::number_between(1e-9, 1e3, "mm"),
-        "g_0 [mm]: gap at the largest pull. The work of adhesion is e t_0 "
-        "g_0 [N/mm], the initial stiffness of the bond e t_0 / g_0."},
-       {subsection,
-        "Adhesive friction",
-        "1",
-        Allowed::number_between(0, 1, ""),
-        "c, dimensionless: share of the strength that is added to the "
-        "pressure in friction, mu (p + c phi t_0)."},
-       {subsection,
-        "Opening viscosity",
-        "0",
-        Allowed::number_between(1e-15, 1e15, "MPa per (mm per unit of time)")
-          .or_number(0),
-        "eta [MPa per (mm per unit of time)]: a bond that opens with the "
-        "speed v has an additional pull of phi eta v. A bond that would open "
-        "in a jump opens in time instead, and results depend on the rate."}},
-      [](const LawChoice &choice, const InterfaceLawParts &parts) {
-        if (choice.number("Strength") == 0.)
-          return friction_under_pressure(parts);
-        return InterfaceLawPointer(std::make_shared<Adhesive>(
-          choice, parts, bond_that_opens(parts, "adhesive")));
-      }};
+      Adhesive()};
   }
 } // namespace Debond

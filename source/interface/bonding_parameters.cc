@@ -76,6 +76,7 @@ namespace Debond
 
 
 
+  // Patterns that are given place by place.
   void
   BondingParameters::declare_places(EntryTable &table)
   {
@@ -122,6 +123,8 @@ namespace Debond
 
 
 
+  // An entry that its pattern does not read is refused, and not warned of, as
+  // elsewhere: with the wrong pattern all results are those of another test.
   void
   BondingParameters::check(const BodyParameters &implant) const
   {

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <numeric>
 
+// phi_0 of Eq. (13) on the contact face of the implant, in parts: its elements,
+// or the places of its quadrature points. The bonded share of the area is met
+// exactly, with a part at the border that is bonded in part, so that patterns
+// of equal share can be compared on any mesh.
 namespace Debond
 {
   BondingPattern::BondingPattern(const BondingParameters     &parameters,
@@ -41,6 +45,8 @@ namespace Debond
       }
     summary.mean = summary.bonded_area / summary.area;
 
+    // Around each quadrature point the piece of the element that its weight
+    // makes up, for places in between.
     shares.resize(n);
     std::partial_sum(along.get_weights().begin(),
                      along.get_weights().end(),
@@ -54,6 +60,9 @@ namespace Debond
   {
     /** Bonds the parts of smallest rank; ranks that differ by at most
      *  @p tolerance are equal. */
+    //
+    // Equal ranks share what is left: of a ring of elements that lie equally
+    // far out each is bonded in part, and the pattern stays symmetric.
     void
     bond_in_order(const std::vector<double>         &rank,
                   const double                       tolerance,
@@ -204,6 +213,8 @@ namespace Debond
 
 
 
+  // Elements are numbered as the surface numbers them, points in them with the
+  // first parameter fastest, as quadratures of tensor products have it.
   unsigned int
   BondingPattern::point_at(const unsigned int     element,
                            const Eigen::Vector2d &xi) const
@@ -244,6 +255,8 @@ namespace Debond
 
 
 
+  // As the pattern `file' reads it: a pattern that was drawn can be looked at,
+  // changed by hand, and used again.
   std::string
   BondingPattern::table() const
   {
@@ -263,6 +276,8 @@ namespace Debond
 
 
 
+  // Only what the user has written can be wrong, and is worth making a pattern
+  // for before a run begins.
   void
   check_bonding_pattern(const BondingParameters     &parameters,
                         const BodyParameters        &implant,

@@ -20,6 +20,10 @@
 #include <random>
 #include <utility>
 
+// Where phi_0, the bonding degree of Eq. (13), comes from if not from a formula
+// of the program: expressions, pictures, tables and random numbers. A mistake
+// in a file is said with its line, since the picture of a wrong pattern looks
+// as plausible as that of the right one.
 namespace Debond
 {
   namespace
@@ -29,6 +33,10 @@ namespace Debond
 
 
 
+    // It is asked in reference coordinates, on the face as the implant was
+    // made: the bond belongs to the surface and goes with it. Values out of [0,
+    // 1] are refused where they occur, not clipped, since a bond of more than 1
+    // would mean that the expression has been misread.
     PlaceFunction
     function_of_expression(const std::string    &expression,
                            const BodyParameters &implant)
@@ -104,6 +112,10 @@ namespace Debond
 
 
     /** The picture over the square, or rectangle, around the face. */
+    //
+    // Elements take the mean over their area, of the picture in so many pixels
+    // that more of them would change nothing: a threshold comes before that, as
+    // a mean of grey levels is none of black and white.
     std::vector<double>
     values_of_image(const BondingParameters     &parameters,
                     const BodyParameters        &implant,
@@ -235,6 +247,10 @@ namespace Debond
                      const std::vector<Eigen::Vector2d> &centres,
                      const double                        size)
     {
+      // Points outside of the face belong to the frame of a picture or scan and
+      // are passed over; that none is on the face is a mistake of units or
+      // origin.
+      //
       // the contact face seen from above: of a cap what its border encloses
       ControlNet from_above = surface.control_points();
       from_above.row(2).setZero();
@@ -274,6 +290,10 @@ namespace Debond
 
 
 
+    // The names of the columns say which kind of table it is, as its user may
+    // have written it, or as bonding.csv of another run has it. Tables by
+    // number are tried first: they are exact, where places have to be looked
+    // up.
     std::vector<double>
     values_of_file(const std::string                  &filename,
                    const BodyParameters               &implant,
@@ -322,6 +342,8 @@ namespace Debond
 
 
 
+  // 200 points across the face are more than elements of usual meshes need, at a
+  // cost that is not seen beside a step.
   std::vector<double>
   bonding_from_source(const BondingParameters            &parameters,
                       const BodyParameters               &implant,
@@ -392,6 +414,7 @@ namespace Debond
 
 
 
+  // Fisher and Yates (1938), from the end: every order is equally likely.
   std::vector<unsigned int>
   random_order(const unsigned int n, const std::uint64_t seed)
   {
@@ -405,6 +428,10 @@ namespace Debond
 
 
 
+  // A sum of cosines with random directions and phases is a homogeneous field
+  // whose correlation is the mean cosine. By the theorem of central limits its
+  // values are normally distributed the better the more waves there are. It
+  // needs no mesh, so that a finer one sees the same field.
   RandomField::RandomField(const std::uint64_t seed,
                            const double        correlation_length)
     : waves(1000)
@@ -429,6 +456,7 @@ namespace Debond
 
 
 
+  // Each cosine has the variance 1/2: the factor makes that of the sum 1.
   double
   RandomField::operator()(const Eigen::Vector3d &place) const
   {

@@ -1,4 +1,5 @@
 #include <debond/geometry/surface_geometry.h>
+#include <debond/interface/bilinear_bond.h>
 #include <debond/interface/cohesive_share.h>
 #include <debond/interface/slip_problem.h>
 
@@ -33,7 +34,7 @@ namespace Debond
     const Vector3d     along  = whole - g_n * n;
     const double       length = along.norm();
     const Vector3d direction  = length > 0. ? Vector3d(along / length) : along;
-    const CohesiveResponse response = law.hold(start, g_n, length);
+    const CohesiveResponse response = law.cohesion->hold(start, g_n, length);
     const bool             opens    = g_n > 0.;
 
     normal              = n;
@@ -78,7 +79,7 @@ namespace Debond
       {
         const Vector3d gap = before + (bears - before) * i / n;
         const double g_n = normal.dot(gap), along = (gap - g_n * normal).norm(),
-                     next = law.hold(start, g_n, along).damage;
+                     next = law.cohesion->hold(start, g_n, along).damage;
         work -= 0.25 * stiffness_by_damage * (next - start.history.damage) *
                 (squared + gap.squaredNorm());
         start.history.damage = next;

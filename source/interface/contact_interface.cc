@@ -2,6 +2,7 @@
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/rigid_motion.h>
+#include <debond/interface/slip_problem.h>
 
 #include <Eigen/Geometry>
 
@@ -46,9 +47,9 @@ namespace Debond
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         static_cast<SurfaceQuadraturePoint &>(points[q]) = places[q];
-        points[q].accepted.internal = law.joint->friction->initial_variables();
+        points[q].accepted.internal = law.joint->friction->initial_variables;
       }
-    if (law.joint->is_cohesive())
+    if (law.joint->cohesion)
       shares.resize(points.size());
     for (const Side side : both_sides)
       // no forces before the first evaluate()

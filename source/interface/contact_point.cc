@@ -99,7 +99,7 @@ namespace Debond
   viscous_stiffness(const ContactPointLaw &law, const ContactPointMode &mode)
   {
     const bool resists = !mode.frictionless && mode.duration > 0. &&
-                         !law.joint->friction->is_frictionless();
+                         !law.joint->friction->is_frictionless;
     return resists ? law.viscosity / mode.duration : 0.;
   }
 
@@ -128,9 +128,8 @@ namespace Debond
       {
         PointStart point =
           law.joint->begin(start, phi_0, mode.duration, mode.frictionless);
-        if (law.joint->is_cohesive())
+        if (law.joint->cohesion)
           point.damage = mode.damage;
-        law.joint->ask_at_rest(point);
         return point;
       }
 

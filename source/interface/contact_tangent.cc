@@ -1,3 +1,4 @@
+#include <debond/interface/bilinear_bond.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/interface/point_motion.h>
 
@@ -221,11 +222,11 @@ namespace Debond
   ContactInterface::path_length(
     const InterfaceConfiguration &configuration) const
   {
-    PathLength   result;
-    PaddedNets   gradient  = Debond::padded(zero_sums(configuration));
-    double       area      = 0.;
-    const bool   by_damage = law.joint->is_cohesive();
-    const double length    = by_damage ? law.joint->length_of_damage() : 0.;
+    PathLength result;
+    PaddedNets gradient = Debond::padded(zero_sums(configuration));
+    double     area     = 0.;
+    const BilinearBond *const by_damage = law.joint->cohesion.get();
+    const double length = by_damage ? by_damage->length_of_damage() : 0.;
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         const SlavePoint         &point = points[q];
@@ -264,7 +265,7 @@ namespace Debond
   double
   ContactInterface::path_left() const
   {
-    if (!law.joint->is_cohesive())
+    if (!law.joint->cohesion)
       return std::numeric_limits<double>::infinity();
     double left = 0., area = 0.;
     for (const SlavePoint &point : points)
@@ -274,6 +275,6 @@ namespace Debond
           if (point.trial.state.joined && point.phi_0 > 0.)
             left += point.JxW * (1. - point.trial.state.damage);
         }
-    return law.joint->length_of_damage() * left / area;
+    return law.joint->cohesion->length_of_damage() * left / area;
   }
 } // namespace Debond

@@ -25,6 +25,7 @@ namespace Debond
     errors_of_facets(const NurbsSurface &surface)
     {
       std::vector<double> result(surface.n_elements(), 0.);
+      // one patch is the smooth surface itself
       if (surface.is_one_patch())
         return result;
       const auto middles = surface_quadrature(surface, dealii::QMidpoint<1>());

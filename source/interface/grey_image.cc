@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <limits>
 
+// Pictures of bonded faces, from a microscope or drawn by hand. Their grey
+// levels are measured values, and are read as the file has them: without gamma,
+// colour profiles or what else makes a picture pleasant.
 namespace Debond
 {
   namespace
@@ -36,6 +39,8 @@ namespace Debond
 
 
 
+  // The first row of a picture is its top, v = 1. Without interpolation: an
+  // edge between bonded and not is as sharp as it was drawn.
   double
   GreyImage::at(const double u, const double v) const
   {
@@ -68,6 +73,8 @@ namespace Debond
       return *this;
     // Blocks of equal size in the picture, not in pixels: a pixel on the border
     // of two belongs to both in parts.
+    //
+    // Sums in double: a picture has up to 1e8 pixels, and float has 7 digits.
     GreyImage result;
     result.width                = (width + n - 1) / n;
     result.height               = (height + n - 1) / n;
@@ -90,6 +97,8 @@ namespace Debond
   {
     using boost::endian::load_big_u32;
 
+    // What a picture of 400 MB has in 4 bytes for each pixel: a damaged header
+    // may ask for more.
     constexpr unsigned int largest_side = 10000; ///< pixels
 
 
@@ -139,6 +148,7 @@ namespace Debond
 
 
 
+    // libraries of bytes want them without a sign
     const unsigned char *
     bytes_at(const std::string &bytes, const std::size_t position)
     {
@@ -226,6 +236,9 @@ namespace Debond
     // sRGB: those that are asked for in the same way stay as they are.
     // Boost.GIL reads beyond the end of rows with fewer than 8 bits for a
     // pixel.
+    //
+    // A palette is resolved into the colours that it stands for, as the numbers
+    // of its entries mean nothing.
     GreyImage
     read_png(const ImageFile &file, const std::string &bytes)
     {
@@ -256,6 +269,8 @@ namespace Debond
 
 
 
+  // Formats that lose, such as JPEG, blur the very edges that matter; others
+  // can be converted to PNG without loss.
   GreyImage
   read_grey_image(const std::string &filename,
                   const std::string &entry,

@@ -4,6 +4,11 @@
 
 #include <algorithm>
 
+// From unknowns to motions of control points, and back from forces at them to
+// residuals: the matrix Q of walk.md, and its transpose. Displacements of a
+// body are counted in its own frame, which the chuck turns, so that a large
+// rotation leaves the stiffness of the body as it is. A component of the chuck
+// moves all control points of the implant at once.
 namespace Debond
 {
   NodalSums
@@ -34,6 +39,8 @@ namespace Debond
 
 
 
+  // u = Q v: control points that no unknown moves, and are not fixed to the
+  // chuck either, stay.
   NodalSums
   nodal_motion(const Eigen::VectorXd        &unknowns,
                const InterfaceConfiguration &configuration)
@@ -55,6 +62,8 @@ namespace Debond
 
 
 
+  // Q^T f: virtual work is the same in both, so that the tangent keeps what
+  // symmetry it has.
   void
   add_in_unknowns(const NodalSums              &sums,
                   const InterfaceConfiguration &configuration,
@@ -120,6 +129,9 @@ namespace Debond
 
 
 
+  // Only unknowns that contact may reach are worth condensing to: a bone is
+  // wider than its implant. From sample to sample the closest point is near the
+  // last one, which is the guess.
   std::vector<bool>
   bone_control_points_under_implant(const NurbsSurface           &bone,
                                     const NurbsSurface           &implant,
@@ -174,6 +186,8 @@ namespace Debond
 
 
 
+  // A sliding point acts at xi_hat, but its slip is seen from xi_hat^n, too:
+  // the tangent has columns for both.
   std::vector<bool>
   touched_bone_control_points(const NurbsSurface            &bone,
                               const std::vector<SlavePoint> &points,

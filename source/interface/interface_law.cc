@@ -1,34 +1,124 @@
-#include <debond/interface/bond_friction.h>
 #include <debond/interface/interface_law.h>
 #include <debond/support/input_error.h>
 
 #include <algorithm>
 #include <cmath>
 
+// The law of the paper across and along the interface: a spring that pushes,
+// and friction under its pressure. What other laws have in common with it is
+// here, too: the friction law is asked in rub(), and nowhere else.
 namespace Debond
 {
-  PointStart
-  InterfaceLaw::begin(const PointHistory &history,
-                      const double        phi_0,
-                      const double        duration,
-                      const bool          frictionless) const
+  bool
+  InterfaceLaw::initialise()
   {
-    return {history, phi_0, duration, frictionless, history.damage};
+    characteristic_distance = friction->characteristic_distance;
+    return true;
   }
 
 
 
+  InterfaceLawPointer
+  initialised(const std::shared_ptr<InterfaceLaw> &law)
+  {
+    return law->initialise() ?
+             law :
+             initialised(std::make_shared<InterfaceLaw>(*law));
+  }
+
+
+
+  InterfaceLawPointer
+  friction_under_pressure(const double              stiffness,
+                          const FrictionLawPointer &friction)
+  {
+    const auto law = std::make_shared<InterfaceLaw>();
+    law->stiffness = stiffness;
+    law->friction  = friction;
+    return initialised(law);
+  }
+
+
+
+  // Eq. (28) along the normal, t_n = eps_n g_n n: a spring that pushes, p =
+  // -eps_n g_n > 0, while g_n < 0; and Eq. (30), L of this pressure. The
+  // compliance 1/eps_n is a property of the interface, not a numerical device:
+  // in the paper's test it is most of the compliance of the whole.
+  InterfaceResponse
+  InterfaceLaw::respond(const PointStart &start,
+                        const double      g_n,
+                        const double      distance) const
+  {
+    InterfaceResponse result;
+    result.pressure        = -stiffness * g_n;
+    result.pressure_by_gap = -stiffness;
+    result.energy          = 0.5 * stiffness * g_n * g_n; // the potential
+    result.resists         = result.pressure > 0.;
+    if (result.resists)
+      rub(start,
+          distance,
+          Changing(result.pressure, -stiffness, 0.),
+          bond_after(start, distance),
+          result);
+    return result;
+  }
+
+
+
+  // Before friction starts slip does not count, and nothing wears what lies
+  // behind a point.
+  InterfaceLaw::Changing
+  InterfaceLaw::bond_after(const PointStart &start, const double distance) const
+  {
+    const bool   rests = start.frictionless || explicit_friction;
+    const Decay  s     = rests || distance <= 0. ?
+                           start.at_rest :
+                           friction->decay(start.history.slip + distance);
+    const double phi_0 = start.bond_left();
+    return {phi_0 * s.value, 0., rests || distance < 0. ? 0. : phi_0 * s.slope};
+  }
+
+
+
+  // A point cannot slide against what pulls it. Where Newton's method looks
+  // there, at negative distances, L goes on along its tangent, but never rises:
+  // the distance alone would have a second solution there where friction rises
+  // with the speed. dL/dp goes with L, as for laws whose coefficient does not
+  // depend on the pressure.
   void
-  InterfaceLaw::ask_at_rest(PointStart &start) const
+  InterfaceLaw::rub(const PointStart  &start,
+                    const double       distance,
+                    const Changing    &pressed,
+                    const Changing    &phi,
+                    InterfaceResponse &response) const
   {
-    start.at_rest = coefficient(start, 0.);
+    if (start.frictionless)
+      return;
+    const FrictionLimit L =
+      friction->limit(start,
+                      phi[0],
+                      pressed[0],
+                      explicit_friction ? 0. : std::max(0., distance));
+    double factor = 1., by_slip = 0.; // under the same pressure
+    if (!explicit_friction)
+      by_slip = L.by_slip + L.by_bond * phi[2];
+    if (distance < 0.)
+      {
+        by_slip = std::max(0., by_slip);
+        if (L.value != 0.)
+          factor += by_slip * distance / L.value;
+      }
+    response.limit = factor * L.value;
+    response.limit_by_gap =
+      factor * L.by_pressure * pressed[1] + L.by_bond * phi[1];
+    response.limit_by_slip = by_slip + L.by_pressure * pressed[2];
   }
 
 
 
-  // g_s grows by the distance, Eq. (32), and what else the friction law
-  // remembers goes on with it: a state may age at rest. Before friction starts
-  // neither does.
+  // g_s grows by the distance, Eqs. (12) and (32), and what else the friction
+  // law remembers goes on with it: a state may age at rest. Before friction
+  // starts neither does.
   PointHistory
   InterfaceLaw::advance(const PointStart &start,
                         const double      g_n,
@@ -40,7 +130,7 @@ namespace Debond
     if (!start.frictionless)
       {
         history.slip     = start.history.slip + distance;
-        history.internal = friction->advance(start.friction(), distance);
+        history.internal = friction->advance(start, distance);
       }
     return history;
   }
@@ -61,87 +151,97 @@ namespace Debond
 
 
 
-  FrictionCoefficient
-  InterfaceLaw::reported(const PointHistory &history, const double phi_0) const
+  // The law is integrated over the distance, with the pressure between its two
+  // ends. Of the friction the bond has its part, D_adh, which tells what the
+  // adhesion costs without reading it off the torque curve as Eq. (20) does.
+  // What the pressure can be wrong by, and a speed that changes within the
+  // step, keeps a fast but stable fall from being reported as a jump.
+  PointWork
+  InterfaceLaw::work(const PointStart &start,
+                     const double      g_n,
+                     const double      distance) const
   {
-    return friction->reported(begin(history, phi_0).friction());
+    PointWork result;
+    if (start.frictionless || distance == 0.)
+      return result;
+    const auto at = [&](const double gap) {
+      return gap < 0. ? friction->work(start, -stiffness * gap, distance) :
+                        PointWork();
+    };
+    const PointWork first = at(start.history.normal_gap), last = at(g_n);
+    result.friction       = 0.5 * (first.friction + last.friction);
+    result.friction_bound = 0.5 * (std::abs(first.friction - last.friction) +
+                                   first.friction_bound + last.friction_bound);
+    result.adhesive       = 0.5 * (first.adhesive + last.adhesive);
+    return result;
+  }
+
+
+
+  // Where L falls steepest, from the accepted g_s on.
+  double
+  InterfaceLaw::softening_by_slip(const PointStart &start,
+                                  const double      pressure,
+                                  const double      distance) const
+  {
+    return explicit_friction || !(pressure > 0.) ?
+             0. :
+             friction->steepest_fall(start, pressure, distance);
+  }
+
+
+
+  FrictionCoefficient
+  InterfaceLaw::reported(const PointHistory &history,
+                         const double        phi_0,
+                         const double        pressure) const
+  {
+    // an open point has that of 1 MPa
+    return friction->coefficient(begin(history, phi_0),
+                                 0.,
+                                 pressure > 0. ? pressure : 1.);
   }
 
 
 
   // As if there were the other one alone.
-  BondLeft
+  std::array<double, 2>
   InterfaceLaw::left_by_each(const PointHistory &history) const
   {
     PointHistory opening = history, slip = history;
     opening.slip = 0.;
     slip.damage  = 0.;
     slip.broken  = false;
-    return {reported(opening, 1.).phi, reported(slip, 1.).phi};
+    return {{reported(opening, 1., 0.).phi, reported(slip, 1., 0.).phi}};
   }
 
 
 
-  // The law is integrated over the distance, with the pressure between its two
-  // ends. Of the friction the bond has its part, int (mu - mu_b) dg_s: D_adh,
-  // which tells what the adhesion costs without reading it off the torque curve
-  // as Eq. (20) does. What the mean pressure can be wrong by, and a speed that
-  // changes within the step, keeps a fast but stable fall from being reported
-  // as a jump.
-  PointWork
-  InterfaceLaw::work_of_friction(const PointStart &start,
-                                 const double      p,
-                                 const double      p_end,
-                                 const double      distance) const
+  void
+  InterfaceLaw::require_bond(const std::string &law) const
   {
-    if (start.frictionless || distance == 0.)
-      return {};
-    const FrictionState state = start.friction();
-    const double        mean  = 0.5 * (p + p_end),
-                 per_pressure = friction->friction_strength(state, distance);
-    PointWork result;
-    result.friction       = mean * per_pressure;
-    result.friction_bound = 0.5 * std::abs(p - p_end) * per_pressure;
-    if (depends_on_rate())
-      result.friction_bound += mean * friction->strength_bound(state, distance);
-    if (friction->has_bond())
-      result.adhesive =
-        mean * (per_pressure - friction->mu_without_bond() * distance);
-    return result;
-  }
-
-
-
-  // -dmu/dg_s where it is largest, from the accepted g_s on, times p.
-  double
-  InterfaceLaw::softening_by_slip(const PointStart &start,
-                                  const double      pressure,
-                                  const double      distance) const
-  {
-    return explicit_friction ?
-             0. :
-             friction->steepest_fall(start.friction(), distance) *
-               std::max(0., pressure);
-  }
-
-
-
-  std::shared_ptr<const BondFriction>
-  bond_that_opens(const InterfaceLawParts &parts, const std::string &law)
-  {
-    if (parts.opening_breaks_bond)
+    if (opening_breaks_bond)
       throw EntryError("Interface / Opening breaks bond",
                        "with Law = " + law +
                          " opening breaks a bond by as much as the law says: "
                          "expected false",
                        "true");
-    auto bond = std::dynamic_pointer_cast<const BondFriction>(parts.friction);
-    if (!bond || parts.explicit_friction)
+    if (!(friction->decay(0.).value > 0.) || explicit_friction)
       throw EntryError("Interface / Law",
                        "the law " + law +
                          " needs a friction law whose bond breaks with the "
                          "slip: modified coulomb, coulomb, frictionless or "
                          "table, with Friction update = implicit");
-    return bond;
+  }
+
+
+
+  // That of the paper; others derive from it.
+  InterfaceLawPlugin
+  friction_interface_law_plugin()
+  {
+    return {"friction",
+            "friction under pressure, no strength in tension (the paper)",
+            InterfaceLaw()};
   }
 } // namespace Debond

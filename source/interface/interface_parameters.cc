@@ -47,8 +47,8 @@ namespace Debond
       "Tangential stiffness eps_t [MPa/mm] of the interface: tangential "
       "traction per elastic displacement along the interface. `auto': as "
       "Normal stiffness.");
-    declare_interface_laws(table, law_choice);
-    declare_friction_laws(table, friction_choice);
+    law_choice.declare(table, "Tractions across the interface.");
+    friction_choice.declare(table, "Friction coefficient mu.");
     table.add("Friction starts at",
               friction_starts_at,
               Allowed::number("time").or_word_for("auto", entry_text(-1e100)),
@@ -152,15 +152,16 @@ namespace Debond
 
 
 
+  // A new one each time: members that a program has set since are in it.
   InterfaceLawPointer
   InterfaceParameters::joint() const
   {
-    const InterfaceLawParts parts{normal_penalty,
-                                  friction,
-                                  opening_breaks_bond,
-                                  explicit_friction};
-    return law_choice.law.empty() ? friction_under_pressure(parts) :
-                                    create_interface_law(law_choice, parts);
+    const std::shared_ptr<InterfaceLaw> law = law_choice.make();
+    law->stiffness                          = normal_penalty;
+    law->friction                           = friction;
+    law->opening_breaks_bond                = opening_breaks_bond;
+    law->explicit_friction                  = explicit_friction;
+    return initialised(law);
   }
 
 
@@ -173,6 +174,8 @@ namespace Debond
 
 
 
+  // Closed forms and outputs need not ask which law it is: where phi is of no
+  // consequence it is zero.
   BondingParameters
   InterfaceParameters::bonding_of_law() const
   {
@@ -234,7 +237,7 @@ namespace Debond
   void
   InterfaceParameters::check(const BodyParameters &implant) const
   {
-    if (friction->is_frictionless() && viscosity != 0.)
+    if (friction->is_frictionless && viscosity != 0.)
       throw EntryError("Interface / Viscosity",
                        "it is not used by Friction law = frictionless: it "
                        "belongs to laws with friction");

@@ -134,12 +134,12 @@ namespace Debond
   ContactInterface::has_opened_beyond_strength(const SlavePoint &point) const
   {
     const InterfaceLaw &joint = *law.joint;
-    if (joint.is_cohesive())
+    if (joint.cohesion)
       return point.trial.state.damage > point.accepted.damage;
     return joint.pulls() && point.phi_0 > 0. &&
            point.trial.state.status != PointStatus::open &&
            joint.opened(point.trial.state) >
-             std::max(joint.opened(point.accepted), joint.tension().gap);
+             std::max(joint.opened(point.accepted), joint.tension.gap);
   }
 
 
@@ -166,7 +166,7 @@ namespace Debond
                                             &summary.share_pulled}};
     const double                  resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
-    const Tension tension = law.joint->tension();
+    const Tension tension = law.joint->tension;
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;

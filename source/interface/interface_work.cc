@@ -202,7 +202,7 @@ namespace Debond
     const ContactPointResult &trial = point.trial;
     const InterfaceLaw       &joint = *law.joint;
     PointStart                start = point.begin(joint, mode);
-    if (joint.is_cohesive()) // what is held beside is known
+    if (joint.cohesion) // what is held beside is known
       start.damage = start.history.damage = trial.state.damage;
     // of the beginning, and where nothing has slid
     const InterfaceResponse at_start =

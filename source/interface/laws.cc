@@ -1,10 +1,15 @@
+#include <debond/input/allowed_values.h>
 #include <debond/input/entry_table.h>
 #include <debond/interface/interface_law.h>
 
 #include <debond_laws.h>
 
-#include <set>
+#include <algorithm>
+#include <type_traits>
 
+// Laws that scenes can choose. All of a kind are there in each scene with their
+// parameters, chosen or not: entries of the others are known, printed, and
+// checked, and a change of one line tries another law.
 namespace Debond
 {
   // Each law's own file defines its plug-in; CMake finds their names. (The
@@ -15,133 +20,102 @@ namespace Debond
   DEBOND_FRICTION_LAWS(DECLARED_FRICTION)
   DEBOND_INTERFACE_LAWS(DECLARED_INTERFACE)
 
-  const std::vector<FrictionLawPlugin> &
-  friction_law_plugins()
+  template <class Law>
+  std::vector<LawPlugin<Law>>
+  all_laws()
   {
-    static const std::vector<FrictionLawPlugin> all{
-      DEBOND_FRICTION_LAWS(CALLED)};
-    return all;
+    if constexpr (std::is_same_v<Law, FrictionLaw>)
+      return {DEBOND_FRICTION_LAWS(CALLED)};
+    else
+      return {DEBOND_INTERFACE_LAWS(CALLED)};
+  }
+  template std::vector<FrictionLawPlugin>
+  all_laws();
+  template std::vector<InterfaceLawPlugin>
+  all_laws();
+
+
+
+  template <class Law>
+  void
+  LawChoice<Law>::declare(EntryTable &table, const std::string &about)
+  {
+    std::string names, text = about;
+    for (const LawPlugin<Law> &plugin : laws)
+      {
+        names += (names.empty() ? "" : " | ") + plugin.name;
+        text += " `" + plugin.name + "': " + plugin.description + ".";
+      }
+    table.add(entry, law, Allowed::choice(names), text);
+    for (const LawPlugin<Law> &plugin : laws)
+      plugin.law().declare(table);
   }
 
 
 
-  const std::vector<InterfaceLawPlugin> &
-  interface_law_plugins()
+  // The copy of the plug-in owns the law, and the pointer owns the copy.
+  template <class Law>
+  std::shared_ptr<Law>
+  LawChoice<Law>::make() const
   {
-    static const std::vector<InterfaceLawPlugin> all{
-      DEBOND_INTERFACE_LAWS(CALLED)};
-    return all;
-  }
-
-
-
-  const std::vector<double> &
-  FrictionLaw::kinks() const
-  {
-    static const std::vector<double> none{0.};
-    return none;
-  }
-
-
-
-  double
-  LawChoice::number(const std::string &entry) const
-  {
-    return read_number(text(entry)).value_or(0.);
+    const auto chosen =
+      std::find_if(laws.begin(), laws.end(), [this](const auto &plugin) {
+        return plugin.name == law;
+      });
+    const auto copy = std::make_shared<LawPlugin<Law>>(*chosen); // there is one
+    return {copy, &copy->law()};
   }
 
 
 
   namespace
   {
-    // A row @p entry, @p about something, that chooses a law, and rows for the
-    // entries of all laws.
-    template <typename Plugin>
-    void
-    declare(EntryTable                &table,
-            const std::string         &entry,
-            const std::string         &about,
-            const std::string         &default_law,
-            const std::vector<Plugin> &plugins,
-            LawChoice                 &choice)
+    template <class Law>
+    std::vector<SceneEntry>
+    entries_of(Law &law)
     {
-      std::string names, text = about;
-      for (const Plugin &plugin : plugins)
-        {
-          names += (names.empty() ? "" : " | ") + plugin.name;
-          text += " `" + plugin.name + "': " + plugin.description + ".";
-        }
-      if (choice.law.empty())
-        choice.law = default_law;
-      table.add(entry, choice.law, Allowed::choice(names), text);
-      std::set<std::string> done;
-      for (const Plugin &plugin : plugins)
-        for (const LawEntry &own : plugin.entries)
-          if (done.insert(own.name).second)
-            {
-              // a value that is there already is the default
-              std::string &value =
-                choice.entries.emplace(own.name, own.value).first->second;
-              if (!own.subsection.empty())
-                table.enter_subsection(own.subsection);
-              table.add(own.name, value, own.allowed, own.documentation);
-              if (!own.subsection.empty())
-                table.leave_subsection();
-            }
-    }
-
-
-
-    template <typename Plugin>
-    const Plugin &
-    chosen(const std::vector<Plugin> &plugins, const std::string &name)
-    {
-      for (const Plugin &plugin : plugins)
-        if (plugin.name == name)
-          return plugin;
-      return plugins.front(); // never: the entry admits no other name
+      EntryTable table;
+      table.enter_subsection("Interface");
+      law.declare(table);
+      return table.entries();
     }
   } // namespace
 
 
 
-  void
-  declare_friction_laws(EntryTable &table, LawChoice &choice)
+  template <class Law>
+  std::vector<SceneEntry>
+  LawChoice<Law>::entries() const
   {
-    declare(table,
-            "Friction law",
-            "Friction coefficient mu.",
-            "modified coulomb",
-            friction_law_plugins(),
-            choice);
+    return entries_of(*make());
   }
 
 
 
-  void
-  declare_interface_laws(EntryTable &table, LawChoice &choice)
+  template <class Law>
+  std::vector<std::string>
+  LawChoice<Law>::laws_with(const std::string &full_name) const
   {
-    declare(table,
-            "Law",
-            "Tractions across the interface.",
-            "friction",
-            interface_law_plugins(),
-            choice);
+    std::vector<std::string> result;
+    for (const LawPlugin<Law> &plugin : laws)
+      for (const SceneEntry &own : entries_of(plugin.law()))
+        if (own.full_name() == full_name)
+          result.push_back(plugin.name);
+    return result;
   }
+
+
+
+  template class LawChoice<FrictionLaw>;
+  template class LawChoice<InterfaceLaw>;
 
 
 
   FrictionLawPointer
-  create_friction_law(const LawChoice &choice)
+  create_friction_law(const LawChoice<FrictionLaw> &choice)
   {
-    return chosen(friction_law_plugins(), choice.law).create(choice);
-  }
-
-
-
-  InterfaceLawPointer
-  create_interface_law(const LawChoice &choice, const InterfaceLawParts &parts)
-  {
-    return chosen(interface_law_plugins(), choice.law).create(choice, parts);
+    const std::shared_ptr<FrictionLaw> law = choice.make();
+    law->initialise();
+    return law;
   }
 } // namespace Debond

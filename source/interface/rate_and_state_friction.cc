@@ -1,3 +1,5 @@
+#include <debond/input/allowed_values.h>
+#include <debond/input/entry_table.h>
 #include <debond/interface/friction_law.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -37,26 +39,83 @@ namespace Debond
     class RateAndState : public FrictionLaw
     {
     public:
-      explicit RateAndState(const LawChoice &choice)
-        : mu_0(choice.number("Reference coefficient"))
-        , A(choice.number("Direct effect"))
-        , B(choice.number("Evolution effect"))
-        , V_0(choice.number("Reference speed"))
-        , D(choice.number("Sliding distance"))
-        , theta_0(choice.number("Initial state"))
-        , ageing(choice.text("Evolution") == "ageing")
-      {}
+      // The entries, in a subsection of their own. A and D stay above zero:
+      // without the direct effect the fall of mu in a step, up to B/D, would be
+      // the same however short the step is.
+      void
+      declare(EntryTable &table) override
+      {
+        table.enter_subsection("Rate and state");
+        table.add("Reference coefficient",
+                  mu_0,
+                  Allowed::number_between(1e-9, 1e6, "").or_number(0),
+                  "mu_0, dimensionless: coefficient at a speed far below "
+                  "Reference speed, with the state Sliding distance / "
+                  "Reference speed.");
+        table.add("Direct effect",
+                  A,
+                  Allowed::number_between(1e-9, 1e6, ""),
+                  "A, dimensionless: mu rises immediately by A ln(1 + V/V_0) "
+                  "with the speed V.");
+        table.add("Evolution effect",
+                  B,
+                  Allowed::number_between(1e-9, 1e6, "").or_number(0),
+                  "B, dimensionless: mu changes by B ln(V_0 theta/D) as the "
+                  "state theta evolves. With B > A friction falls with the "
+                  "speed.");
+        table.add("Reference speed",
+                  V_0,
+                  Allowed::number_between(1e-30, 1e15, "mm per unit of time"),
+                  "V_0 [mm per unit of time]: speed that V and D / theta are "
+                  "compared with.");
+        table.add("Sliding distance",
+                  D,
+                  Allowed::number_between(1e-9, 1e6, "mm"),
+                  "D [mm]: sliding distance over which the state evolves after "
+                  "a change of speed.");
+        table.add("Initial state",
+                  theta_0,
+                  Allowed::number_between(1e-30, 1e30, "units of time")
+                    .or_word_for("auto", "0"),
+                  "theta [unit of time] when friction starts. `auto': Sliding "
+                  "distance / Reference speed, the steady state at Reference "
+                  "speed.");
+        table.add("Evolution",
+                  is_slip_law,
+                  Allowed::choice("ageing | slip"),
+                  "`ageing': d theta/dt = 1 - V theta/D, also while a point "
+                  "sticks. `slip': d theta/dt = -(V theta/D) ln(V theta/D), "
+                  "which needs sliding. An open point keeps its state.");
+        table.leave_subsection();
+      }
+
+      void
+      initialise() override
+      {
+        // Refused with it are closed forms, the model `auto', paths of
+        // equilibrium, along which time may fall, and the explicit update.
+        depends_on_rate = true;
+        // the state follows a new speed over that distance
+        characteristic_distance = D;
+        // psi of theta_0; without an entry 0, which is steady sliding at V_0
+        initial_variables = {
+          {theta_0 > 0. ? std::log(V_0 * theta_0 / D) : 0., 0.}};
+        entries_against_fall =
+          "Rate and state / Sliding distance or Direct effect";
+      }
 
       // mu at the end of a step in which the point slides by the distance d
       // [mm]. The mean speed V = d/dt stands for the speed at the end, which is
       // backward Euler: of first order in the step, but with d as the only
       // unknown of the local problem. The derivative is total, with dV = dd/dt
-      // and dpsi/dd from the state's own update. Where no time passes, as in
-      // row 0, there is no direct effect, and the law is Coulomb's with mu_0 +
-      // B psi.
-      FrictionCoefficient
-      coefficient(const FrictionState &start,
-                  const double         distance) const override
+      // and dpsi/dd from the state's own update. Where no time
+      // passes the speed is that of the last step, for output: in row 0 there
+      // is no direct effect, and the law is Coulomb's with mu_0 + B psi.
+      FrictionLimit
+      limit(const PointStart &start,
+            const double,
+            const double pressure,
+            const double distance) const override
       {
         const double dt = start.duration;
         double       slope;
@@ -64,18 +123,17 @@ namespace Debond
         // 1 + V/V_0 instead of V/V_0 under the logarithm keeps mu finite at V =
         // 0, where points stick; the derivative by d is A/(V_0 dt + d) [1/mm],
         // which grows as steps shrink.
-        if (dt == 0.) // no time, no speed
-          return {0., mu_0 + B * psi, 0.};
-        return {0.,
-                mu_0 + A * std::log1p(distance / (V_0 * dt)) + B * psi,
-                A / (V_0 * dt + distance) + B * slope};
+        const double V   = dt > 0. ? distance / dt : start.history.internal[1],
+                     mu  = mu_0 + A * std::log1p(V / V_0) + B * psi,
+                     dmu = dt > 0. ? A / (V_0 * dt + distance) + B * slope : 0.;
+        return {mu * pressure, mu, 0., dmu * pressure};
       }
 
       // The history of an accepted step: psi at its end, and V for output and
       // for the bound of the work. A point that sticks comes here with the
       // distance 0, and ages.
       InternalVariables
-      advance(const FrictionState &start, const double distance) const override
+      advance(const PointStart &start, const double distance) const override
       {
         double       slope;
         const double dt = start.duration;
@@ -83,60 +141,38 @@ namespace Debond
           {evolved(start, distance, slope), dt > 0. ? distance / dt : 0.}};
       }
 
-      // psi_n = ln(V_0 theta_0/D); without an entry 0, which is steady sliding
-      // at V_0.
-      InternalVariables
-      initial_variables() const override
-      {
-        return {{theta_0 > 0. ? std::log(V_0 * theta_0 / D) : 0., 0.}};
-      }
-
-      // For output no step is under way: mu of the last speed and state.
-      FrictionCoefficient
-      reported(const FrictionState &state) const override
-      {
-        return {0.,
-                mu_0 + A * std::log1p(state.internal[1] / V_0) +
-                  B * state.internal[0],
-                0.};
-      }
-
-      // The work per pressure, int mu dg_s [mm], at the constant speed of the
-      // step: after a part of the distance the same part of the time has
-      // passed, so that V is the same and only psi changes. 15 Gauss points
-      // resolve that, unless a step is many D long.
-      double
-      friction_strength(const FrictionState &start,
-                        const double         distance) const override
-      {
-        // mu after this part of the step, by the same update over a shorter
-        // time
-        const auto mu_at = [&](const double part) {
-          FrictionState to_there = start;
-          to_there.duration *= part;
-          return coefficient(to_there, part * distance).mu;
-        };
-        return distance * boost::math::quadrature::gauss<double, 15>::integrate(
-                            mu_at, 0., 1.);
-      }
-
-      // A point that slows down had a higher speed than that of the step.
+      // int L dg_s [N/mm] at the constant speed of the step: after a part of
+      // the distance the same part of the time has passed, so that V is the
+      // same and only psi changes. 15 Gauss points resolve that, unless a step
+      // is many D long.
       //
-      // It is taken into account before the balance of energy says that a step
-      // has jumped: the work could be more by A ln of the ratio of both speeds.
+      // A point that slows down had a higher speed than that of the step: the
+      // work could be more by A ln of the ratio of both speeds, which is taken
+      // into account before the balance of energy says that a step has jumped.
       // For a point that speeds up it is 0: the direct effect can only have
       // been less.
-      double
-      strength_bound(const FrictionState &start,
-                     const double         distance) const override
+      PointWork
+      work(const PointStart &start,
+           const double      pressure,
+           const double      distance) const override
       {
-        const double dt = start.duration;
-        if (dt == 0.)
-          return 0.;
-        return distance * A *
-               std::max(0.,
-                        std::log((V_0 + start.internal[1]) /
-                                 (V_0 + distance / dt)));
+        // L after this part of the step, by the same update over a shorter time
+        const auto L = [&](const double part) {
+          PointStart to_there = start;
+          to_there.duration *= part;
+          return limit(to_there, 0., pressure, part * distance).value;
+        };
+        PointWork result;
+        result.friction =
+          distance *
+          boost::math::quadrature::gauss<double, 15>::integrate(L, 0., 1.);
+        if (start.duration > 0.)
+          result.friction_bound =
+            pressure * distance * A *
+            std::max(0.,
+                     std::log((V_0 + start.history.internal[1]) /
+                              (V_0 + distance / start.duration)));
+        return result;
       }
 
       // The direct effect rises by A/(V_0 dt + d) at least. psi falls by 1/D at
@@ -148,8 +184,9 @@ namespace Debond
       // is ahead depends on speeds that are not known yet. Where it exceeds
       // eps_t / p the step is halved (doc/explanation/interface.md).
       double
-      steepest_fall(const FrictionState &start,
-                    const double         distance) const override
+      steepest_fall(const PointStart &start,
+                    const double      pressure,
+                    const double      distance) const override
       {
         const double dt = start.duration;
         if (dt == 0. || distance == 0.)
@@ -157,85 +194,12 @@ namespace Debond
         // ln(V theta_n/D): 0 in the steady state, positive for a state older
         // than the speed wants
         const double from_steady =
-          ageing ? 0. : start.internal[0] + std::log(distance / (V_0 * dt));
-        return std::max(0.,
-                        B / D * (1. + std::max(0., from_steady)) -
-                          A / (V_0 * dt + distance));
-      }
-
-      std::string
-      entries_against_fall() const override
-      {
-        return "Rate and state / Sliding distance or Direct effect";
-      }
-
-      // Refused with it are closed forms, the model `auto', paths of
-      // equilibrium, along which time may fall, and the explicit update.
-      bool
-      depends_on_rate() const override
-      {
-        return true;
-      }
-
-      // D [mm]: the state follows a new speed over that distance.
-      double
-      characteristic_distance() const override
-      {
-        return D;
-      }
-
-      // The entries, in a subsection of their own. A and D stay above zero:
-      // without the direct effect the fall of mu in a step, up to B/D, would be
-      // the same however short the step is.
-      static std::vector<LawEntry>
-      entries()
-      {
-        const auto row = [](const char          *name,
-                            const char          *value,
-                            const AllowedValues &allowed,
-                            const char          *text) {
-          return LawEntry{"Rate and state", name, value, allowed, text};
-        };
-        return {
-          row("Reference coefficient",
-              "0.4",
-              Allowed::number_between(1e-9, 1e6, "").or_number(0),
-              "mu_0, dimensionless: coefficient at a speed far below "
-              "Reference speed, with the state Sliding distance / Reference "
-              "speed."),
-          row("Direct effect",
-              "0.01",
-              Allowed::number_between(1e-9, 1e6, ""),
-              "A, dimensionless: mu rises immediately by A ln(1 + V/V_0) "
-              "with the speed V."),
-          row("Evolution effect",
-              "0.015",
-              Allowed::number_between(1e-9, 1e6, "").or_number(0),
-              "B, dimensionless: mu changes by B ln(V_0 theta/D) as the "
-              "state theta evolves. With B > A friction falls with the speed."),
-          row("Reference speed",
-              "1e-3",
-              Allowed::number_between(1e-30, 1e15, "mm per unit of time"),
-              "V_0 [mm per unit of time]: speed that V and D / theta are "
-              "compared with."),
-          row("Sliding distance",
-              "0.01",
-              Allowed::number_between(1e-9, 1e6, "mm"),
-              "D [mm]: sliding distance over which the state evolves after a "
-              "change of speed."),
-          row(
-            "Initial state",
-            "0",
-            Allowed::number_between(1e-30, 1e30, "units of time")
-              .or_word_for("auto", "0"),
-            "theta [unit of time] when friction starts. `auto': Sliding "
-            "distance / Reference speed, the steady state at Reference speed."),
-          row("Evolution",
-              "ageing",
-              Allowed::choice("ageing | slip"),
-              "`ageing': d theta/dt = 1 - V theta/D, also while a point "
-              "sticks. `slip': d theta/dt = -(V theta/D) ln(V theta/D), which "
-              "needs sliding. An open point keeps its state.")};
+          is_slip_law ?
+            start.history.internal[0] + std::log(distance / (V_0 * dt)) :
+            0.;
+        return pressure * std::max(0.,
+                                   B / D * (1. + std::max(0., from_steady)) -
+                                     A / (V_0 * dt + distance));
       }
 
     private:
@@ -244,19 +208,19 @@ namespace Debond
        *    ageing: theta = theta_n e^-x + dt (1 - e^-x)/x,
        *    slip:   ln(V theta/D) = e^-x ln(V theta_n/D). */
       double
-      evolved(const FrictionState &start,
-              const double         distance,
-              double              &slope) const
+      evolved(const PointStart &start,
+              const double      distance,
+              double           &slope) const
       {
         // psi instead of theta: theta runs over many orders of magnitude, and
         // what the law asks for is its logarithm. x is dimensionless, the
         // distance in units of D.
-        const double psi = start.internal[0], dt = start.duration;
+        const double psi = start.history.internal[0], dt = start.duration;
         const double x = distance / D, decay = std::exp(-x);
         slope = 0.;
         if (dt == 0.)
           return psi;
-        if (ageing)
+        if (!is_slip_law)
           {
             // With e^psi = V_0 theta/D the ageing law reads e^psi = e^(psi_n -
             // x) + (V_0 dt/D) (1 - e^-x)/x: what is left of the old state, and
@@ -291,8 +255,8 @@ namespace Debond
       // mu_0, A, B dimensionless; V_0 [mm per unit of time], D [mm], theta_0
       // [unit of time]
       static constexpr double slowest = 1e-12; ///< of the slip law, in V_0
-      const double            mu_0, A, B, V_0, D, theta_0;
-      const bool              ageing;
+      double mu_0 = 0.4, A = 0.01, B = 0.015, V_0 = 1e-3, D = 0.01, theta_0 = 0;
+      bool   is_slip_law = false; ///< else ageing
     };
   } // namespace
 
@@ -308,9 +272,6 @@ namespace Debond
             "mu = mu_0 + A ln(1 + V/V_0) + B ln(V_0 theta/D), with the "
             "sliding speed V and a state theta that evolves with sliding, "
             "see subsection Rate and state",
-            RateAndState::entries(),
-            [](const LawChoice &choice) {
-              return FrictionLawPointer(std::make_shared<RateAndState>(choice));
-            }};
+            RateAndState()};
   }
 } // namespace Debond

@@ -5,6 +5,10 @@
 
 #include <cmath>
 
+// The way of a point over the master in a step is straight where both bodies
+// are pushed, and an arc where one turns. Eq. (31) as printed has one direction
+// for the whole step; here the rigid motion of the chuck says by how much the
+// way turns, and TowedGap integrates along it.
 namespace Debond
 {
   using Eigen::Vector3d;
@@ -18,6 +22,8 @@ namespace Debond
 
 
 
+  // As a screw: the shortest rotation between both frames, at an even speed,
+  // and an even translation of the centre.
   RigidMotion::RigidMotion(const Place &old_place, const Place &place)
     : turn(place.frame * old_place.frame.transpose())
     , old_centre(old_place.centre)
@@ -61,6 +67,8 @@ namespace Debond
 
 
 
+  // The angle between the first and the last velocity, both in the tangent
+  // plane of the end.
   double
   RigidMotion::turn_of_way(const Vector3d &x,
                            const Side      slave,

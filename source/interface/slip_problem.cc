@@ -470,7 +470,7 @@ namespace Debond
     const Eigen::Matrix<double, 4, W::size> total =
       by_w.traction_and_distance + by_xi->traction_and_distance * result.dxi;
     result.dt = total.topRows<3>();
-    if (friction.law.is_cohesive())
+    if (friction.law.cohesion)
       {
         const auto by_damage = e.along_damage();
         result.by_damage.xi  = -inverse * by_damage.h;

@@ -1,10 +1,12 @@
 #include <debond/input/csv_table.h>
+#include <debond/input/entry_table.h>
 #include <debond/input/monotone_curve.h>
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
 #include <algorithm>
+#include <optional>
 
 // The law of Eq. (11) with a measured or computed decay of the bond in the
 // place of Eq. (13): rows of sliding distance and bonding state from a CSV
@@ -24,166 +26,17 @@ namespace Debond
 {
   namespace
   {
-    /** s(g_s) through the points of a table: monotone cubics between them
-     *  (Fritsch and Butland), constant from the last one on. Works, and the
-     *  check that local solutions are unique, need integral and steepest slope
-     *  of the curve; both are formed once for each row, so that a point only
-     *  looks them up. */
-    class TableFriction : public BondFriction
-    {
-    public:
-      TableFriction(const double               mu_broken,
-                    const double               mu_unbroken,
-                    const std::string         &filename,
-                    const std::vector<double> &slip,
-                    const std::vector<double> &phi)
-        : BondFriction(mu_broken, mu_unbroken)
-        , filename(filename)
-        , slip(slip)
-        , last(phi.back())
-        , curve(slip, phi)
-        , integral(slip.size(), 0.)
-        , steepest(slip.size(), 0.)
-      {
-        // from the first row on: int s dg_s up to each row [mm]
-        for (std::size_t i = 1; i < slip.size(); ++i)
-          integral[i] =
-            integral[i - 1] + integral_between(slip[i - 1], slip[i]);
-        // from the last row backwards: the largest -ds/dg_s [1/mm] from each
-        // row on; behind the last one s is constant
-        for (std::size_t i = slip.size() - 1; i-- > 0;)
-          steepest[i] = std::max(steepest[i + 1], steepest_between(i));
-      }
-
-      // The curvature jumps at every row. Closed forms integrate from row to
-      // row, where the law is as smooth as their quadrature wants it.
-      const std::vector<double> &
-      kinks() const override
-      {
-        return slip;
-      }
-
-      // Of the whole table, or of its steepest part if it were to fall from 1
-      // to 0 at that slope [mm]: a table may be long and have a short fall. A
-      // constant table has no slope, 1/0 is infinite, and its length remains.
-      double
-      characteristic_distance() const override
-      {
-        return std::min(slip.back(), 1. / steepest.front());
-      }
-
-      // The content of this file belongs to the scene: with another one a run
-      // is not gone on with.
-      std::string
-      file() const override
-      {
-        return filename;
-      }
-
-      // The slope is in the file: what helps is a longer fall in there.
-      std::string
-      entries_against_fall() const override
-      {
-        return "distance over which the bond of Friction table falls";
-      }
-
-    protected:
-      // s, and its slope [1/mm] by the derivative of the same cubic. Both
-      // belong to one curve: a slope from differences of the rows would cost
-      // Newton's method its quadratic convergence. Beyond the last row s is the
-      // value there: what a table does not say is not extrapolated. If that is
-      // above 0 a part of the bond stays for ever.
-      double
-      decay(const double g_s, double &slope) const override
-      {
-        const bool falls = g_s < slip.back();
-        slope            = falls ? curve.slope(g_s) : 0.;
-        return falls ? curve(g_s) : last;
-      }
-
-      // Up to the row before from the sum, then the rest of that interval;
-      // beyond the last row the constant goes on.
-      double
-      integrated_decay(const double g_s) const override
-      {
-        const std::size_t i = row_before(g_s);
-        return integral[i] + (g_s < slip.back() ?
-                                integral_between(slip[i], g_s) :
-                                last * (g_s - slip[i]));
-      }
-
-      // The bound begins with the row before g_s, not with g_s itself: it may
-      // be too large within one interval, never too small. So uniqueness is
-      // judged on the safe side.
-      double
-      steepest_decay(const double g_s) const override
-      {
-        return steepest[row_before(g_s)];
-      }
-
-    private:
-      // The last row at or before g_s >= 0, by bisection; the first row is at
-      // 0, so that there always is one.
-      std::size_t
-      row_before(const double g_s) const
-      {
-        return std::upper_bound(slip.begin(), slip.end(), g_s) - slip.begin() -
-               1;
-      }
-
-      // Simpson's rule is exact for a cubic.
-      //
-      // Both places lie in one interval of the table, so that the curve is one
-      // cubic between them: works are exact integrals of this law, and a defect
-      // of energy is none of its interpolation.
-      double
-      integral_between(const double from, const double to) const
-      {
-        return (to - from) / 6. *
-               (curve(from) + 4. * curve(0.5 * (from + to)) + curve(to));
-      }
-
-      // The slope is a parabola: largest at its ends or its vertex.
-      //
-      // Three of its values make it: on u in [0, 1] it is left + (right - left
-      // - bending) u + bending u^2, with its vertex where the derivative
-      // vanishes. If that lies outside, or there is none, the ends are enough.
-      double
-      steepest_between(const std::size_t i) const
-      {
-        const double a = slip[i], h = slip[i + 1] - a;
-        const double left = curve.slope(a), right = curve.slope(a + h);
-        const double middle  = curve.slope(a + 0.5 * h);
-        const double bending = 2. * (left - 2. * middle + right);
-        const double vertex =
-          bending != 0. ? 0.5 * (left - right + bending) / bending : 0.;
-        return -std::min(
-          {left, right, curve.slope(a + std::clamp(vertex, 0., 1.) * h)});
-      }
-
-      // The rows and the curve through them, in the distance g_s [mm].
-      const std::string         filename;
-      const std::vector<double> slip; ///< g_s of the rows [mm]
-      const double              last; ///< phi of the last one
-      const MonotoneCurve       curve;
-
-      std::vector<double> integral; ///< of s, from 0 to each row [mm]
-      std::vector<double> steepest; ///< bound from each row on [1/mm]
-    };
-
-
-
     // A table is checked row by row, before anything is built, and refused with
     // the line of the file: a torque curve would not show that its law rises
     // somewhere, or does not begin at g_s = 0.
-    FrictionLawPointer
-    read_table(const double       mu_broken,
-               const double       mu_unbroken,
-               const std::string &filename)
+    void
+    read_table(const std::string   &filename,
+               std::vector<double> &slip,
+               std::vector<double> &phi)
     {
       const std::string         entry = "Interface / Friction table";
-      std::vector<double>       slip, phi;
       std::vector<unsigned int> lines;
+      slip.clear();
       const auto expect = [&](const bool is_right, const std::string &why) {
         if (!is_right)
           throw EntryError(entry, why, filename);
@@ -217,26 +70,27 @@ namespace Debond
       // interpolation wants four rows at least
       expect(slip.size() >= 4,
              "expected at least four rows of slip_mm and phi");
-      return std::make_shared<TableFriction>(
-        mu_broken, mu_unbroken, filename, slip, phi);
     }
-  } // namespace
 
 
 
-  // The choice `table' of the entry Friction law. The entries of the two
-  // coefficients are shared with modified coulomb, so that the two laws can be
-  // compared by changing one line of a scene.
-  FrictionLawPlugin
-  table_plugin()
-  {
-    return {
-      "table",
-      "as modified coulomb, with the decay of the bond from Friction table",
-      BondFriction::entries(
-        {{"",
+    /** s(g_s) through the points of a table: monotone cubics between them
+     *  (Fritsch and Butland), constant from the last one on. Works, and the
+     *  check that local solutions are unique, need integral and steepest slope
+     *  of the curve; both are formed once for each row, so that a point only
+     *  looks them up. */
+    class TableFriction : public ModifiedCoulomb
+    {
+    public:
+      // The entries of the two coefficients are shared with modified coulomb,
+      // so that the two laws can be compared by changing one line of a scene.
+      void
+      declare(EntryTable &table) override
+      {
+        declare_coefficients(table);
+        table.add(
           "Friction table",
-          "",
+          file,
           Allowed::text("the name of a CSV file", false)
             .or_word_for("none", ""),
           "CSV file for Friction law = table, relative to the working "
@@ -244,11 +98,107 @@ namespace Debond
           "ascending from 0, and phi, the bonding state of a point that was "
           "fully bonded, between 1 and 0 and never rising. It needs four rows "
           "at least. Between rows there are monotone cubics; beyond the last "
-          "row phi is constant. `none': no table."}}),
-      [](const LawChoice &choice) {
-        return read_table(choice.number("Friction coefficient broken"),
-                          choice.number("Friction coefficient unbroken"),
-                          choice.text("Friction table"));
-      }};
+          "row phi is constant. `none': no table.");
+      }
+
+      // The curvature jumps at every row. Closed forms integrate from row to
+      // row, where the law is as smooth as their quadrature wants it.
+      void
+      initialise() override
+      {
+        std::vector<double> phi;
+        read_table(file, kinks, phi);
+        last = phi.back();
+        curve.emplace(kinks, phi);
+        // from the first row on: int s dg_s up to each row [mm]
+        integral.assign(kinks.size(), 0.);
+        for (std::size_t i = 1; i < kinks.size(); ++i)
+          integral[i] =
+            integral[i - 1] + integral_between(kinks[i - 1], kinks[i]);
+        // from the last row backwards: the largest -ds/dg_s [1/mm] from each
+        // row on; behind the last one s is constant
+        steepest.assign(kinks.size(), 0.);
+        for (std::size_t i = kinks.size() - 1; i-- > 0;)
+          steepest[i] = std::max(steepest[i + 1], steepest_between(i));
+        // Of the whole table, or of its steepest part if it were to fall from 1
+        // to 0 at that slope [mm]: a table may be long and have a short fall. A
+        // constant table has no slope, 1/0 is infinite, and its length remains.
+        characteristic_distance = std::min(kinks.back(), 1. / steepest.front());
+        // the slope is in the file: what helps is a longer fall in there
+        entries_against_fall =
+          "distance over which the bond of Friction table falls";
+      }
+
+      // s, and its slope [1/mm] by the derivative of the same cubic. Both
+      // belong to one curve: a slope from differences of the rows would cost
+      // Newton's method its quadratic convergence. Beyond the last row s is the
+      // value there: what a table does not say is not extrapolated. If that is
+      // above 0 a part of the bond stays for ever.
+      //
+      // The bound of the slope begins with the row before g_s, not with g_s
+      // itself: it may be too large within one interval, never too small. So
+      // uniqueness is judged on the safe side.
+      Decay
+      decay(const double g_s) const override
+      {
+        // there always is a row before, as the first one is at 0
+        const std::size_t i =
+          std::upper_bound(kinks.begin(), kinks.end(), g_s) - kinks.begin() - 1;
+        if (g_s < kinks.back())
+          return {(*curve)(g_s),
+                  curve->slope(g_s),
+                  integral[i] + integral_between(kinks[i], g_s),
+                  steepest[i]};
+        return {last, 0., integral[i] + last * (g_s - kinks[i]), 0.};
+      }
+
+    private:
+      // Simpson's rule is exact for a cubic.
+      //
+      // Both places lie in one interval of the table, so that the curve is one
+      // cubic between them: works are exact integrals of this law, and a defect
+      // of energy is none of its interpolation.
+      double
+      integral_between(const double from, const double to) const
+      {
+        return (to - from) / 6. *
+               ((*curve)(from) + 4. * (*curve)(0.5 * (from + to)) +
+                (*curve)(to));
+      }
+
+      // The slope is a parabola: largest at its ends or its vertex.
+      //
+      // Three of its values make it: on u in [0, 1] it is left + (right - left
+      // - bending) u + bending u^2, with its vertex where the derivative
+      // vanishes. If that lies outside, or there is none, the ends are enough.
+      double
+      steepest_between(const std::size_t i) const
+      {
+        const double a = kinks[i], h = kinks[i + 1] - a;
+        const double left = curve->slope(a), right = curve->slope(a + h);
+        const double middle  = curve->slope(a + 0.5 * h);
+        const double bending = 2. * (left - 2. * middle + right);
+        const double vertex =
+          bending != 0. ? 0.5 * (left - right + bending) / bending : 0.;
+        return -std::min(
+          {left, right, curve->slope(a + std::clamp(vertex, 0., 1.) * h)});
+      }
+
+      std::optional<MonotoneCurve> curve;
+      double                       last = 0; ///< phi of the last row
+      std::vector<double>          integral; ///< of s, from 0 to each row [mm]
+      std::vector<double>          steepest; ///< bound from each row on [1/mm]
+    };
+  } // namespace
+
+
+
+  FrictionLawPlugin
+  table_plugin()
+  {
+    return {
+      "table",
+      "as modified coulomb, with the decay of the bond from Friction table",
+      TableFriction()};
   }
 } // namespace Debond

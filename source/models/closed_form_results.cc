@@ -40,7 +40,7 @@ namespace Debond
               double(point.sticks ? PointStatus::stick : PointStatus::slip),
               2. * M_PI * r * R / n,
               1.,
-              model.disk.friction->reported({1., point.slip}).phi,
+              model.disk.friction->decay(point.slip).value,
               point.traction == 0. ? 0. : 90.}});
         }
       return points;

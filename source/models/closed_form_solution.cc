@@ -263,7 +263,7 @@ namespace Debond
                 "Interface / Friction law",
                 "the law softens faster than the foundation is stiff, so "
                 "that the traction would jump. What helps: a larger " +
-                  disk.friction->entries_against_fall());
+                  disk.friction->entries_against_fall);
     }
 
 
@@ -284,7 +284,7 @@ namespace Debond
         return crack_torsion(disk,
                              given.shear_modulus,
                              1e-3 * given.adhesion_energy, // N/mm
-                             disk.pressure * disk.friction->mu_without_bond());
+                             disk.limit(0.).value);
       if (given.full_sliding < given.linear_limit)
         throw EntryError("Closed form / Linear limit angle",
                          "it is more than Slip counts from angle, " +
@@ -343,7 +343,7 @@ namespace Debond
   {
     if (scene.bone.modulus)
       return "Young's modulus of the bone varies";
-    if (scene.interface.friction->depends_on_rate())
+    if (scene.interface.friction->depends_on_rate)
       return "friction depends on the sliding speed";
     try
       {

@@ -51,7 +51,9 @@ namespace Debond
                            const double slip,
                            const double theta) const
   {
-    const auto   law = friction(initial_bonding(r), slip);
+    const auto   law = disk.friction->coefficient({initial_bonding(r), {slip}},
+                                                0.,
+                                                disk.pressure);
     const double traction =
       sticks ? disk.stiffness * r * std::abs(theta) : law.mu * disk.pressure;
     return {sticks, slip, std::copysign(traction, theta), law.phi, law.mu};
@@ -62,23 +64,20 @@ namespace Debond
   TorsionModel::State
   TorsionModel::state(const double theta) const
   {
-    const double R = disk.radius, p = disk.pressure;
+    const double R = disk.radius;
     State        sum;
     const auto   add = [&](const double r, const double weight) {
-      const Point  here  = point(r, theta);
-      const double phi_0 = initial_bonding(r);
-      const double dA    = 2. * pi * r * weight;
+      const Point  here = point(r, theta);
+      const double dA   = 2. * pi * r * weight;
       sum.torque += r * here.traction * dA;
       sum.phi_mean += here.phi * dA / (pi * R * R);
       if (here.traction != 0.) // else the stiffness may be zero, too
         sum.stored_energy +=
           0.5 * here.traction * here.traction / disk.stiffness * dA;
-      const double spent =
-        p * disk.friction->friction_strength({phi_0}, here.slip) * dA;
-      sum.dissipation += spent;
-      if (disk.friction->has_bond())
-        sum.adhesive_work +=
-          spent - p * disk.friction->mu_without_bond() * here.slip * dA;
+      const PointWork work =
+        disk.friction->work({initial_bonding(r)}, disk.pressure, here.slip);
+      sum.dissipation += work.friction * dA;
+      sum.adhesive_work += work.adhesive * dA;
     };
 
     // The fields are smooth between kinks, so that Gauss points do.
@@ -120,8 +119,8 @@ namespace Debond
   {
     const double phi_0    = initial_bonding(r);
     const double distance = r * std::abs(theta);
-    const double begin    = disk.friction->kinks().front();
-    const double end      = disk.friction->kinks().back();
+    const double begin    = disk.friction->kinks.front();
+    const double end      = disk.friction->kinks.back();
     // Before and after the decay the coefficient is constant: mu p / eps_t of
     // the path is elastic.
     if (distance <= path(begin, phi_0))
@@ -157,7 +156,7 @@ namespace Debond
       for (const double phi_0 : {disk.phi_0, 0.})
         {
           kinks.push_back(path(0., phi_0) / std::abs(theta));
-          for (const double slip : disk.friction->kinks())
+          for (const double slip : disk.friction->kinks)
             kinks.push_back(path(slip, phi_0) / std::abs(theta));
         }
     return kinks;
@@ -301,7 +300,7 @@ namespace Debond
       kinks(const double theta) const override
       {
         std::vector<double> kinks{stick_radius(theta)};
-        for (const double slip : disk.friction->kinks())
+        for (const double slip : disk.friction->kinks)
           kinks.push_back(slip / slip_per_radius(theta));
         return kinks;
       }
@@ -397,9 +396,8 @@ namespace Debond
   {
     // Eqs. (43) and (46): all of the disk sticks until theta_lin.
     TorsionModel::Disk own = disk;
-    own.stiffness          = disk.friction->coefficient({disk.phi_0}, 0.).mu *
-                    disk.pressure / (disk.radius * linear_limit);
-    auto model          = std::make_unique<AnalyticalTorsion>(own);
+    own.stiffness = disk.limit(disk.phi_0).value / (disk.radius * linear_limit);
+    auto model    = std::make_unique<AnalyticalTorsion>(own);
     model->linear_limit = linear_limit;
     model->full_sliding = full_sliding;
     return model;

@@ -17,7 +17,7 @@ namespace Debond
       scene.chuck.component[ChuckComponent::translation_z];
     if (bone.modulus)
       why = "Young's modulus of the bone is not the same everywhere";
-    if (interface.friction->depends_on_rate() || interface.explicit_friction ||
+    if (interface.friction->depends_on_rate || interface.explicit_friction ||
         interface.slip_direction == SlipDirection::previous_gap)
       why = "friction depends on the rate or on the steps";
     if (!why.empty())
@@ -98,7 +98,7 @@ namespace Debond
         scene.implant.contact_surface == SurfaceKind::bilinear ||
         scene.interface.points_per_element(scene.bone, scene.implant).size() <
           3 ||
-        scene.interface.friction->is_frictionless())
+        scene.interface.friction->is_frictionless)
       return "";
     const Forecast forecast(scene);
     double         T_max = 0.;

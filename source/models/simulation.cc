@@ -177,7 +177,7 @@ namespace Debond
       load_steps,
       load_steps.largest_slip_step > 0. ?
         load_steps.largest_slip_step :
-        coupled_system.interface.get_law().characteristic_distance() / 20.,
+        coupled_system.interface.get_law().characteristic_distance / 20.,
       load_steps.path_ends_at_slip > 0. ? load_steps.path_ends_at_slip : R);
   }
 
@@ -460,7 +460,7 @@ namespace Debond
       message << ". A prescribed load may be more than the interface can "
                  "carry; prescribing the displacement or angle instead, or "
                  "Load steps / Path following = slip, follows the fall";
-    if (scene.interface.friction->depends_on_rate() &&
+    if (scene.interface.friction->depends_on_rate &&
         !scene.interface.is_viscous())
       message
         << ". Where friction falls with the speed faster than the springs "

@@ -37,14 +37,14 @@ namespace Debond
     std::string
     advice(const ModelParameters &parameters, const bool opens)
     {
-      if (opens ? parameters.interface.joint()->tension().viscosity > 0. :
+      if (opens ? parameters.interface.joint()->tension.viscosity > 0. :
                   parameters.interface.is_viscous())
         return "Smaller steps follow the viscous motion";
-      if (parameters.interface.friction->depends_on_rate())
+      if (parameters.interface.friction->depends_on_rate)
         return "Friction falls with the speed faster than the springs pull: "
                "there is no quasi-static solution. Interface / Viscosity "
                "limits the speed";
-      if (parameters.interface.friction->is_frictionless())
+      if (parameters.interface.friction->is_frictionless)
         return "Smaller steps show where";
       if (parameters.load_steps.follow_path)
         return "A smaller Load steps / Largest slip step follows the path "

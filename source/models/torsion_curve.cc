@@ -23,7 +23,7 @@ namespace Debond
       {
         // smooth parts of the decay are divided, for the Gauss points
         constexpr unsigned int parts = 16;
-        const auto            &kinks = disk.friction->kinks();
+        const auto            &kinks = disk.friction->kinks;
         ends                         = kinks;
         for (unsigned int i = 1; i < parts; ++i)
           ends.push_back(kinks.front() +
@@ -54,15 +54,10 @@ namespace Debond
       double integral = 0; ///< [N mm]
 
     private:
-      FrictionCoefficient
-      law(const double slip) const
-      {
-        return disk.friction->coefficient({phi_0, slip}, 0.);
-      }
       double
       path_at(const double slip) const
       {
-        return slip + law(slip).mu * disk.pressure / disk.stiffness;
+        return slip + disk.limit(phi_0, slip).value / disk.stiffness;
       }
 
       /** The sliding distance at a path, which is beyond the last one. */
@@ -70,12 +65,11 @@ namespace Debond
       slip_at(const double target) const
       {
         const auto excess = [&](const double slip) {
-          const auto mu = law(slip);
-          return std::make_pair(slip + mu.mu * disk.pressure / disk.stiffness -
-                                  target,
-                                1. + mu.dmu * disk.pressure / disk.stiffness);
+          const FrictionLimit L = disk.limit(phi_0, slip);
+          return std::make_pair(slip + L.value / disk.stiffness - target,
+                                1. + L.by_slip / disk.stiffness);
         };
-        // where mu is constant the first step is the last one
+        // where L is constant the first step is the last one
         const double guess = std::max(g, target - (path_at(g) - g));
         return boost::math::tools::newton_raphson_iterate(
           excess, std::min(guess, target), g, target, 50);
@@ -86,10 +80,9 @@ namespace Debond
       {
         integral += boost::math::quadrature::gauss<double, 7>::integrate(
           [&](const double slip) {
-            const double p = disk.pressure, stiffness = disk.stiffness;
-            const auto   mu = law(slip);
-            const double s  = slip + mu.mu * p / stiffness;
-            return s * s * mu.mu * p * (1. + mu.dmu * p / stiffness);
+            const FrictionLimit L = disk.limit(phi_0, slip);
+            const double        s = slip + L.value / disk.stiffness;
+            return s * s * L.value * (1. + L.by_slip / disk.stiffness);
           },
           g,
           end);

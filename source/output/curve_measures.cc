@@ -1,3 +1,4 @@
+#include <debond/input/allowed_values.h>
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>

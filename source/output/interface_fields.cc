@@ -164,15 +164,17 @@ namespace Debond
 
 
     /**
-     * phi_0, phi and mu at a point of an element. Patterns jump from element to
-     * element, so phi_0 is that of the element's own points; phi and mu follow
-     * from it and the sliding distance, which does not jump, by the friction
-     * law: they are as sharp as the pattern where it jumps, smooth elsewhere.
+     * phi_0, phi and mu at a point of an element, under a pressure. Patterns
+     * jump from element to element, so phi_0 is that of the element's own
+     * points; phi and mu follow from it and the sliding distance, which does
+     * not jump, by the friction law: they are as sharp as the pattern where it
+     * jumps, smooth elsewhere.
      */
     std::array<double, 3>
     bonding_values(const InterfaceLaw            &law,
                    const QuadratureGrid::Stencil &across_elements,
-                   const QuadratureGrid::Stencil &own)
+                   const QuadratureGrid::Stencil &own,
+                   const double                   pressure)
     {
       double phi_0 = 0., phi_0_left = 0.; // without bonds that opening broke
       for (unsigned int a = 0; a < 4; ++a)
@@ -183,7 +185,9 @@ namespace Debond
             phi_0_left += part;
         }
       const FrictionCoefficient friction =
-        law.reported(history_under_implant(across_elements), phi_0_left);
+        law.reported(history_under_implant(across_elements),
+                     phi_0_left,
+                     pressure);
       return {{phi_0, friction.phi, friction.mu}};
     }
 
@@ -241,19 +245,17 @@ namespace Debond
         continuous +=
           stencil.weight[a] * continuous_values(interface, *stencil.point[a]);
       append_values(values, continuous);
-      for (const double value : bonding_values(law, stencil, own))
+      for (const double value :
+           bonding_values(law, stencil, own, continuous[0]))
         values.push_back(value);
       values.push_back(static_cast<double>(interface.status(*stencil.nearest)));
       append_values(values, displacement);
       if (law.pulls())
         {
-          const BondLeft left =
-            law.left_by_each(history_under_implant(stencil));
+          const auto left = law.left_by_each(history_under_implant(stencil));
           const PointTraction traction{continuous[0], continuous.segment<3>(1)};
           append_values(values,
-                        Eigen::Vector3d(left.by_opening,
-                                        left.by_slip,
-                                        traction.mode_deg()));
+                        Eigen::Vector3d(left[0], left[1], traction.mode_deg()));
         }
     }
   } // namespace

@@ -23,8 +23,8 @@ namespace Debond
     {
       constexpr unsigned int n        = 600;
       const FrictionLaw     &friction = *interface.friction;
-      const FrictionState    start{interface.bonding.initial_bonding};
-      const double           end     = 1.5 * friction.kinks().back();
+      const PointStart       start{interface.bonding.initial_bonding};
+      const double           end     = 1.5 * friction.kinks.back();
       const double           initial = friction.coefficient(start, 0.).mu;
       std::string            table   = "slip_mm,phi,mu,mu_over_initial\n";
       for (unsigned int i = 0; i <= n; ++i)

@@ -37,8 +37,8 @@ namespace Debond
                              coefficient.mu,
                              double(interface.status(point)),
                              point.JxW,
-                             left.by_opening,
-                             left.by_slip,
+                             left[0],
+                             left[1],
                              traction.mode_deg()}});
         }
     return points;

@@ -30,12 +30,10 @@ namespace Debond
         for (const char *const entry : {"Young modulus", "Poisson ratio"})
           add(!body->is_rigid(), std::string(name) + " / " + entry);
       add(true, "Interface / Normal stiffness");
-      for (const FrictionLawPlugin &law : friction_law_plugins())
-        for (const LawEntry &entry : law.entries)
-          add(law.name == scene.interface.friction_choice.law &&
-                !scene.interface.friction->is_frictionless() &&
-                entry.subsection.empty(),
-              "Interface / " + entry.name);
+      for (const SceneEntry &entry : scene.interface.friction_choice.entries())
+        add(!scene.interface.friction->is_frictionless &&
+              entry.subsections.size() == 1,
+            entry.full_name());
       return names;
     }
   } // namespace

@@ -23,7 +23,7 @@ namespace Debond
     files_of(const Scene &scene)
     {
       std::vector<std::string> files{scene.interface.bonding.file,
-                                     scene.interface.friction->file()};
+                                     scene.interface.friction->file};
       for (const ChuckComponentParameters &component : scene.chuck.component)
         files.push_back(component.file);
       for (const BodyParameters *const body : {&scene.bone, &scene.implant})
@@ -41,7 +41,7 @@ namespace Debond
     identities(const Scene &scene)
     {
       std::string text = scene.interface.bonding.identity +
-                         identity_of(scene.interface.friction->file());
+                         identity_of(scene.interface.friction->file);
       for (const ChuckComponentParameters &component : scene.chuck.component)
         text += identity_of(component.file);
       for (const BodyParameters *const body : {&scene.bone, &scene.implant})

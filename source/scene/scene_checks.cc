@@ -164,7 +164,7 @@ namespace Debond
             (scene.interface.viscosity > 0. ?
                "Viscosity = " + to_text(scene.interface.viscosity) :
                "Adhesive / Opening viscosity = " +
-                 to_text(scene.interface.joint()->tension().viscosity)) +
+                 to_text(scene.interface.joint()->tension.viscosity)) +
             ": expected only one of them");
     }
 
@@ -177,7 +177,7 @@ namespace Debond
     {
       const std::string          entry = "Interface / Friction starts at";
       const std::vector<double> &times = load_steps.times;
-      if (!interface.friction->is_frictionless() &&
+      if (!interface.friction->is_frictionless &&
           interface.friction_starts_at > times.back())
         throw EntryError(entry,
                          "this is after the last of Load steps / Times: use "
@@ -210,7 +210,7 @@ namespace Debond
     void
     check_rate(const Scene &scene)
     {
-      if (!scene.interface.friction->depends_on_rate())
+      if (!scene.interface.friction->depends_on_rate)
         return;
       const std::pair<bool, const char *> without_rate[] = {
         {scene.load_steps.follow_path, "Load steps / Path following"},

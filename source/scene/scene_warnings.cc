@@ -124,7 +124,7 @@ namespace Debond
     void
     judge_tension(const Scene &scene, const Note &note)
     {
-      const Tension bond = scene.interface.joint()->tension();
+      const Tension bond = scene.interface.joint()->tension;
       if (bond.strength == 0.)
         return;
       const double length = bond.work / bond.strength;
@@ -170,13 +170,15 @@ namespace Debond
       judge_tension(scene, note);
       const FrictionLaw       &law     = *scene.interface.friction;
       const BondingParameters &bonding = scene.interface.bonding;
+      const double mu_b = law.coefficient({0.}, 0.).mu, // of no bond
+        mu_ub           = law.coefficient({}, 0.).mu;
       note(
-        law.has_bond() && law.coefficient({}, 0.).mu < law.mu_without_bond(),
+        law.has_bond() && mu_ub < mu_b,
         "coefficients",
         "the bond lowers friction: Interface / Friction coefficient unbroken "
         "is less than broken, " +
-          to_text(law.mu_without_bond()) + ". Are they swapped?");
-      const double distance = law.characteristic_distance(),
+          to_text(mu_b) + ". Are they swapped?");
+      const double distance = law.characteristic_distance,
                    R        = scene.implant.characteristic_radius();
       note(!has_size(scene),
            "size of the implant",
@@ -184,8 +186,7 @@ namespace Debond
              " mm: lengths are mm. If it was meant in " +
              (R < 0.1 ? "m" : "um") + ", that is " +
              to_text((R < 0.1 ? 1e3 : 1e-3) * R, 3) + " mm");
-      const double mu =
-        std::max(law.coefficient({}, 0.).mu, law.mu_without_bond());
+      const double mu = std::max(mu_ub, mu_b);
       note(mu > 10.,
            "size of mu",
            "the friction coefficient is " + to_text(mu, 3) +
@@ -244,12 +245,12 @@ namespace Debond
       // The error of a step is estimated, but in steps of first order (backward
       // Euler) those of earlier ones add up where friction falls with the
       // speed.
-      note(steps.adaptive && scene.interface.friction->depends_on_rate(),
+      note(steps.adaptive && scene.interface.friction->depends_on_rate,
            "rate",
            "Load steps / Tolerance holds for each step; with friction that "
            "depends on the speed errors of earlier steps may grow: compare "
            "with a smaller Tolerance");
-      note(!scene.interface.friction->is_frictionless() &&
+      note(!scene.interface.friction->is_frictionless &&
              scene.interface.friction_starts_at >= steps.times.back(),
            "start of friction",
            "Interface / Friction starts at the last time: nothing rubs in this "
@@ -417,7 +418,7 @@ namespace Debond
              "that meant? What begins with 0 is 10 * max(t - 1, 0), from t = 1 "
              "on, or a cycle, 5 * sin(pi * t)");
       const FrictionLaw &law      = *scene.interface.friction;
-      const double       distance = law.characteristic_distance(),
+      const double       distance = law.characteristic_distance,
                    R              = scene.implant.characteristic_radius(),
                    way_of_rim     = way * M_PI / 180. * R;
       // Who wants to know what happens before the bond breaks takes few steps,
@@ -482,7 +483,6 @@ namespace Debond
     void
     judge_entries(const Scene &scene, const Note &note)
     {
-      const std::string &law_name  = scene.interface.friction_choice.law;
       const FrictionLaw &law       = *scene.interface.friction;
       const bool         pulls     = scene.interface.joint()->pulls();
       const bool         is_bonded = law.has_bond() || pulls;
@@ -493,7 +493,7 @@ namespace Debond
         has_cells          = of_points || !scene.bone.is_rigid(),
                  has_steps =
                    scene.model == ModelKind::finite_elements || is_auto,
-                 rubs    = !law.is_frictionless(),
+                 rubs    = !law.is_frictionless,
                  by_slip = rubs && !is_crack &&
                            scene.interface.law_choice.law != "mixed mode";
       // Largest slip step = auto goes by the distances of a bond, also without
@@ -559,7 +559,7 @@ namespace Debond
          "bonds that slip wears"},
         {"Expert / Slip", rubs && has_steps, "friction in finite elements"},
         {"Expert / Friction update",
-         is_bonded || law.depends_on_rate(),
+         is_bonded || law.depends_on_rate,
          "friction that changes"},
         {"Interface / Bonding / ", is_bonded, "laws with a bond"},
         {"Output / Observed bonding", is_bonded, "laws with a bond"}};
@@ -578,18 +578,17 @@ namespace Debond
             if (reader.empty() && !row.is_read &&
                 name.rfind(row.beginning, 0) == 0)
               reader = row.reader;
-          for (const InterfaceLawPlugin &plugin : interface_law_plugins())
-            for (const LawEntry &other : plugin.entries)
-              if (plugin.name != scene.interface.law_choice.law &&
-                  name ==
-                    "Interface / " + other.subsection + " / " + other.name)
-                reader = "Law = " + plugin.name;
-          bool is_of_law = false, is_of_others = false;
-          for (const FrictionLawPlugin &plugin : friction_law_plugins())
-            for (const LawEntry &other : plugin.entries)
-              if (other.name == entry.name && name.rfind("Interface", 0) == 0)
-                (plugin.name == law_name ? is_of_law : is_of_others) = true;
-          if (is_of_others && (!is_of_law || law.is_frictionless()))
+          const InterfaceParameters &interface = scene.interface;
+          const auto joints = interface.law_choice.laws_with(name),
+                     laws   = interface.friction_choice.laws_with(name);
+          const auto is_of  = [](const std::vector<std::string> &names,
+                                const std::string              &chosen) {
+            return std::find(names.begin(), names.end(), chosen) != names.end();
+          };
+          if (!joints.empty() && !is_of(joints, interface.law_choice.law))
+            reader = "Law = " + joints.front();
+          if (!laws.empty() &&
+              (!is_of(laws, interface.friction_choice.law) || !rubs))
             reader = "another Friction law";
           note(!reader.empty(), name, text + reader);
         }

@@ -71,8 +71,8 @@ namespace Debond
       constexpr double largest_strain = 0.01, E_over_G = 3.;
       const double     R  = model.implant.characteristic_radius(),
                    length = std::min(R, model.bone.thickness()),
-                   mu = model.interface.friction->coefficient({1., 0.}, 0.).mu;
-      double strain   = 0.;
+                   mu     = model.interface.friction->coefficient({}, 0.).mu;
+      double strain       = 0.;
       for (const unsigned int c : {ChuckComponent::translation_z,
                                    ChuckComponent::rotation_x,
                                    ChuckComponent::rotation_y})

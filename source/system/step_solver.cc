@@ -147,7 +147,7 @@ namespace Debond
            << summary.softening_slope / summary.steepest_softening
            << " MPa/mm. What helps: Interface / Viscosity, a larger Interface "
               "/ Tangential stiffness, a larger "
-           << interface.friction->entries_against_fall();
+           << interface.friction->entries_against_fall;
       if (interface.joint()->pulls())
         text << ", a smaller Adhesive friction or Strength";
       return text.str();
@@ -205,7 +205,7 @@ namespace Debond
     // without that is the end of the run.
     result.hopeless = result.converged && !result.unique &&
                       parameters.interface.viscosity == 0. &&
-                      !parameters.interface.friction->depends_on_rate();
+                      !parameters.interface.friction->depends_on_rate;
     // a step that failed has failed already; this may be why
     if (!result.unique)
       result.why += (result.why.empty() ? "" : "; ") +

@@ -270,7 +270,7 @@ check_rings()
           for (unsigned int n = 0; n < 10; ++n) // a contraction
             {
               const double excess =
-                gap[k] - law->coefficient({1., slip[k]}, 0.).mu * p / eps;
+                gap[k] - law->coefficient({1., {slip[k]}}, 0.).mu * p / eps;
               if (excess <= 0.)
                 break;
               gap[k] -= excess;

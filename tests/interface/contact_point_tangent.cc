@@ -7,8 +7,8 @@
 // slip that is integrated over the step along a chord or an arc.
 
 #include <debond/geometry/surface_geometry.h>
-#include <debond/interface/bond_friction.h>
 #include <debond/interface/contact_point.h>
+#include <debond/interface/modified_coulomb.h>
 
 #include <Eigen/Geometry>
 
@@ -248,7 +248,7 @@ struct Setting
   void
   rub_with(FrictionLawPointer friction_law)
   {
-    law.joint = friction_under_pressure({eps_n, std::move(friction_law)});
+    law.joint = friction_under_pressure(eps_n, std::move(friction_law));
   }
 
   void
@@ -262,7 +262,7 @@ struct Setting
   set_frictionless()
   {
     friction = {0., 0.};
-    rub_with(modified_coulomb({0., 0., 0.022, 0.74, true}));
+    rub_with(modified_coulomb({}, ModifiedCoulomb::Coefficients::none));
     frictionless_law = true;
   }
 };
@@ -942,7 +942,7 @@ main()
     Master("disk", NurbsSurface::disk(0.6, 3))};
 
   Setting basic;
-  basic.rub_with(default_friction_law());
+  basic.rub_with(modified_coulomb());
   basic.law.tangential_penalty = 250;
   basic.law.slip_direction     = SlipDirection::trial;
   basic.old_state.status       = PointStatus::stick;
@@ -1002,8 +1002,9 @@ main()
   setting                = basic;
   setting.old_state.slip = 0.035;
   setting.is_explicit    = true;
-  setting.law.joint      = friction_under_pressure(
-    {setting.eps_n, setting.law.joint->friction, false, true});
+  const auto lagging     = std::make_shared<InterfaceLaw>(*setting.law.joint);
+  lagging->explicit_friction = true;
+  setting.law.joint          = initialised(lagging);
   check("Slip, explicit coefficient", masters, setting, g_n, 0.045, slip);
   setting                    = basic;
   setting.old_state.slip     = 0.018;
@@ -1037,7 +1038,7 @@ main()
       setting.rate_and_state.ageing = ageing;
       setting.rub_with(setting.rate_and_state.law());
       setting.old_state.internal =
-        setting.law.joint->friction->initial_variables();
+        setting.law.joint->friction->initial_variables;
       setting.rate_and_state.is_used = true;
       setting.mode.duration          = 0.5;
       check(ageing ? "Slip, ageing state" : "Slip, state of the slip law",

@@ -2,7 +2,7 @@
 // sine down, broken beyond (1 + 2 b_s) a_s; its derivative is that of central
 // differences, its integral that of Simpson's rule.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 
 #include <string>
 
@@ -42,7 +42,7 @@ check(const std::string               &name,
   for (unsigned int k = 0; k <= 1000; ++k)
     {
       const double g_s    = 1.5 * end * k / 1000.;
-      const auto   result = law->coefficient({phi_0, g_s}, 0.);
+      const auto   result = law->coefficient({phi_0, {g_s}}, 0.);
       grow(value, std::abs(result.mu - mu(parameters, phi_0, g_s)));
       grow(bond,
            std::abs(result.mu - (result.phi * parameters.mu_unbroken +
@@ -51,8 +51,8 @@ check(const std::string               &name,
       const double step = 1e-6 * a_s;
       grow(derivative,
            a_s * std::abs(result.dmu -
-                          (law->coefficient({phi_0, g_s + step}, 0.).mu -
-                           law->coefficient({phi_0, g_s - step}, 0.).mu) /
+                          (law->coefficient({phi_0, {g_s + step}}, 0.).mu -
+                           law->coefficient({phi_0, {g_s - step}}, 0.).mu) /
                             (2. * step)));
     }
   for (const double kink : {a_s, end})
@@ -61,7 +61,7 @@ check(const std::string               &name,
         {
           const double g_s = kink * (1. + sign * distance);
           grow(value,
-               std::abs(law->coefficient({phi_0, g_s}, 0.).mu -
+               std::abs(law->coefficient({phi_0, {g_s}}, 0.).mu -
                         mu(parameters, phi_0, g_s)));
         }
   report("  deviation of mu", value, 1e-14);
@@ -69,7 +69,7 @@ check(const std::string               &name,
   report("  deviation of a_s dmu/dg_s", derivative, 1e-8);
 
   const auto at = [&](const double g_s) {
-    return law->coefficient({phi_0, g_s}, 0.);
+    return law->coefficient({phi_0, {g_s}}, 0.);
   };
   report("  bonded up to a_s",
          at(0.).phi == phi_0 && at(a_s).phi == phi_0 &&
@@ -98,9 +98,9 @@ check(const std::string               &name,
       for (unsigned int k = first; k <= 1001; ++k)
         steepest = std::max(steepest, -at(end * k / 1000.).dmu);
       grow(deviation,
-           std::abs(law->steepest_fall({phi_0, end * first / 1000.}) -
+           std::abs(law->steepest_fall({phi_0, {end * first / 1000.}}, 1.) -
                     steepest) /
-             law->steepest_fall({phi_0}));
+             law->steepest_fall({phi_0}, 1.));
     }
   report("  steepest fall that is left, relative deviation", deviation, 1e-5);
 
@@ -118,7 +118,7 @@ check(const std::string               &name,
                   parameters.mu_broken);
         sum *= (to - from) / (3. * n);
         grow(integral,
-             std::abs(law->friction_strength({phi_0, from}, to - from) -
+             std::abs(law->work({phi_0, {from}}, 1., to - from).friction -
                       parameters.mu_broken * (to - from) - sum) /
                a_s);
       }
@@ -138,19 +138,19 @@ main()
   check("Values of the second data set", parameters, 1.);
 
   const double mu_b     = ModifiedCoulombParameters().mu_broken;
-  const auto   constant = coulomb()->coefficient({1., 0.01}, 0.02);
+  const auto   constant = coulomb()->coefficient({1., {0.01}}, 0.02);
   report("Coulomb: mu_b everywhere",
          constant.mu == mu_b && constant.dmu == 0. &&
            coulomb()->coefficient({}, 0.).mu == mu_b &&
-           coulomb()->steepest_fall({}) == 0. &&
-           coulomb()->friction_strength({}, 1.) == mu_b);
+           coulomb()->steepest_fall({}, 1.) == 0. &&
+           coulomb()->work({}, 1., 1.).friction == mu_b);
   report("  its bond still decays",
          coulomb()->coefficient({}, 0.).phi == 1. &&
            coulomb()->coefficient({}, 1.).phi == 0.);
-  const auto frictionless = modified_coulomb({0., 0., 0.022, 0.74, true});
+  const auto none = modified_coulomb({}, ModifiedCoulomb::Coefficients::none);
   report("Frictionless: zero",
-         frictionless->coefficient({}, 0.).mu == 0. &&
-           frictionless->coefficient({}, 0.03).dmu == 0. &&
-           frictionless->steepest_fall({}) == 0. &&
-           frictionless->friction_strength({}, 1.) == 0.);
+         none->coefficient({}, 0.).mu == 0. &&
+           none->coefficient({}, 0.03).dmu == 0. &&
+           none->steepest_fall({}, 1.) == 0. &&
+           none->work({}, 1., 1.).friction == 0.);
 }

@@ -1,7 +1,8 @@
 // What every friction law owes the program, whatever it says, of all laws that
-// scenes can choose: the slope is that of mu, works are integrals of mu, mu
-// never falls faster than promised and is constant where closed forms take it
-// to be; and entries of the same name are the same entry.
+// scenes can choose: derivatives of the limit by pressure, bond and distance
+// are right, works are its integrals, it never falls faster than promised and
+// is constant where closed forms take it to be; and entries of the same name
+// are the same entry.
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -29,21 +30,21 @@ law_called(const std::string &name)
 
 
 /** States in which points may be found. */
-std::vector<FrictionState>
+std::vector<PointStart>
 states(const FrictionLaw &law)
 {
-  std::vector<FrictionState> all;
+  std::vector<PointStart> all;
   for (const double phi_0 : {1., 0.3})
     for (const double slip : {0., 0.7, 2.})
       for (const double duration : {1e-2, 10.})
         {
-          FrictionState state;
-          state.phi_0       = phi_0;
-          state.internal    = law.initial_variables();
-          state.duration    = duration;
-          const double slid = slip * law.characteristic_distance();
-          state.internal    = law.advance(state, slid);
-          state.slip        = slid;
+          PointStart state;
+          state.phi_0            = phi_0;
+          state.history.internal = law.initial_variables;
+          state.duration         = duration;
+          const double slid      = slip * law.characteristic_distance;
+          state.history.internal = law.advance(state, slid);
+          state.history.slip     = slid;
           all.push_back(state);
         }
   return all;
@@ -51,23 +52,24 @@ states(const FrictionLaw &law)
 
 
 
-/** Integral of mu(distance) - @p less, the speed being the same all the way,
- *  by Gauss points between the kinks of the law. */
+/** Integral of L over the distance, the speed being the same all the way, by
+ *  Gauss points between the kinks of the law. */
 double
-integral_of_mu(const FrictionLaw   &law,
-               const FrictionState &start,
-               const double         distance)
+integral_of_limit(const FrictionLaw &law,
+                  const PointStart  &start,
+                  const double       pressure,
+                  const double       distance)
 {
   std::vector<double> ends{0.};
-  if (!law.depends_on_rate())
-    for (const double kink : law.kinks())
-      if (kink > start.slip && kink < start.slip + distance)
-        ends.push_back(kink - start.slip);
+  if (!law.depends_on_rate)
+    for (const double kink : law.kinks)
+      if (kink > start.history.slip && kink < start.history.slip + distance)
+        ends.push_back(kink - start.history.slip);
   ends.push_back(distance);
-  const auto mu = [&](const double d) {
-    FrictionState there = start;
+  const auto L = [&](const double d) {
+    PointStart there = start;
     there.duration *= d / distance;
-    return law.coefficient(there, d).mu;
+    return law.limit_after(there, pressure, d).value;
   };
   double sum = 0.;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i)
@@ -76,7 +78,7 @@ integral_of_mu(const FrictionLaw   &law,
         const double length = (ends[i + 1] - ends[i]) / 20.;
         const double from   = ends[i] + part * length;
         sum +=
-          boost::math::quadrature::gauss<double, 15>::integrate(mu,
+          boost::math::quadrature::gauss<double, 15>::integrate(L,
                                                                 from,
                                                                 from + length);
       }
@@ -85,53 +87,75 @@ integral_of_mu(const FrictionLaw   &law,
 
 
 
+/** A derivative by differences of fourth order. */
+template <typename Function>
+double
+slope_of(const Function &f, const double x, const double h)
+{
+  return (8. * (f(x + h) - f(x - h)) - f(x + 2. * h) + f(x - 2. * h)) /
+         (12. * h);
+}
+
+
+
 void
 check_law(const std::string &name)
 {
-  const FrictionLawPointer law   = law_called(name);
-  const double             size  = law->characteristic_distance();
-  double                   slope = 0, work = 0, bond = 0, faster = 0, tail = 0;
-  bool                     positive = true;
-  for (const FrictionState &start : states(*law))
-    for (double d = 0.0137 * size; d < 20. * size; d *= 1.7)
-      {
-        const FrictionCoefficient now = law->coefficient(start, d);
-        const auto                mu  = [&](const double x) {
-          return law->coefficient(start, x).mu;
-        };
-        const double h = 1e-5 * d;
-        // a kink within reach of the difference has no slope
-        const auto near_kink = [&](const double kink) {
-          return std::abs(start.slip + d - kink) <= 2. * h;
-        };
-        const bool rate = law->depends_on_rate();
-        if (rate ||
-            std::none_of(law->kinks().begin(), law->kinks().end(), near_kink))
-          grow(slope,
-               size * std::abs(now.dmu - (8. * (mu(d + h) - mu(d - h)) -
-                                          mu(d + 2. * h) + mu(d - 2. * h)) /
-                                           (12. * h)));
-        grow(work,
-             std::abs(law->friction_strength(start, d) -
-                      integral_of_mu(*law, start, d)) /
-               d);
-        FrictionState broken = start;
-        broken.phi_0         = 0.;
-        grow(bond,
-             std::abs(law->coefficient(broken, d).mu -
-                      (law->has_bond() ? law->mu_without_bond() : now.mu)));
-        positive = positive && now.mu >= 0.;
-        grow(faster, (-now.dmu - law->steepest_fall(start, d)) * size);
-        if (!rate && start.slip + d >= law->kinks().back())
-          grow(tail, std::abs(now.mu - mu(1000. * d)));
-      }
-  report(name + ": slope, deviation from differences", slope, 1e-7);
-  report(name + ": works, deviation from quadrature, per distance", work, 1e-8);
-  report(name + ": mu without a bond, deviation", bond, 1e-15);
+  const FrictionLawPointer law  = law_called(name);
+  const double             size = law->characteristic_distance;
+  const bool               rate = law->depends_on_rate;
+  double by_slip = 0, by_pressure = 0, by_bond = 0, work = 0, bond = 0,
+         faster = 0, tail = 0;
+  bool positive = true;
+  for (const PointStart &start : states(*law))
+    for (const double p : {0.2, 1., 30.})
+      for (double d = 0.0137 * size; d < 20. * size; d *= 1.7)
+        {
+          const double        g_s = start.history.slip + d;
+          const FrictionLimit now = law->limit_after(start, p, d);
+          const auto          L   = [&](const double x) {
+            return law->limit_after(start, p, x).value;
+          };
+          const double h = 1e-5 * d;
+          // a kink within reach of the difference has no slope
+          const auto near_kink = [&](const double kink) {
+            return std::abs(g_s - kink) <= 2. * h;
+          };
+          if (rate ||
+              std::none_of(law->kinks.begin(), law->kinks.end(), near_kink))
+            grow(by_slip, size / p * std::abs(now.by_slip - slope_of(L, d, h)));
+          const auto under = [&](const double pressure) {
+            return law->limit_after(start, pressure, d).value;
+          };
+          grow(by_pressure,
+               std::abs(now.by_pressure - slope_of(under, p, 1e-3 * p)));
+          const auto with = [&](const double phi) {
+            return law->limit(start, phi, p, d).value;
+          };
+          grow(by_bond, std::abs(now.by_bond - slope_of(with, 0.5, 0.01)) / p);
+
+          const PointWork by_law   = law->work(start, p, d);
+          PointStart      unbonded = start;
+          unbonded.phi_0           = 0.;
+          const double integral    = integral_of_limit(*law, start, p, d),
+                       of_broken   = integral_of_limit(*law, unbonded, p, d);
+          grow(work, std::abs(by_law.friction - integral) / (p * d));
+          grow(bond,
+               std::abs(by_law.adhesive - (integral - of_broken)) / (p * d));
+          positive = positive && now.value >= 0.;
+          grow(faster,
+               (-now.by_slip - law->steepest_fall(start, p, d)) * size / p);
+          if (!rate && g_s >= law->kinks.back())
+            grow(tail, std::abs(now.value - L(1000. * d)) / p);
+        }
+  report(name + ": slope, deviation from differences", by_slip, 1e-7);
+  report(name + ": derivative by the pressure", by_pressure, 1e-9);
+  report(name + ": derivative by the bond, at its mean", by_bond, 1e-9);
+  report(name + ": works, deviation from quadrature", work, 1e-8);
+  report(name + ": what of them is the bond's", bond, 1e-8);
   report(name + ": falls faster than promised by", faster, 1e-12);
-  report(name + ": beyond the last kink mu changes by", tail, 1e-14);
-  report(name +
-           ": mu is not negative, and has a distance over which it changes",
+  report(name + ": beyond the last kink L changes by", tail, 1e-14);
+  report(name + ": L is not negative, and has a distance over which it changes",
          positive && size > 0.);
 }
 
@@ -140,8 +164,8 @@ check_law(const std::string &name)
 int
 main()
 {
-  for (const FrictionLawPlugin &plugin : friction_law_plugins())
+  for (const FrictionLawPlugin &plugin : all_laws<FrictionLaw>())
     check_law(plugin.name);
   report("entries of the same name are the same entry",
-         entries_are_shared(friction_law_plugins()));
+         entries_are_shared<FrictionLaw>());
 }

@@ -3,12 +3,15 @@
 // gives; nothing is carried beyond its reach; energies balance along any motion
 // of a point, to second order in the step; damage is never negative; the limit
 // never falls faster than promised; and entries of the same name are the same
-// entry.
+// entry. Derivatives and that fall with every friction law, too.
 
-#include <debond/interface/interface_law.h>
+#include <debond/interface/bilinear_bond.h>
+#include <debond/interface/modified_coulomb.h>
+#include <debond/support/input_error.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,8 +25,7 @@ using namespace Debond;
 InterfaceLawPointer
 law_called(const std::string &name)
 {
-  return interface_law_of_text("set Law = " + name + "\n",
-                               {585., modified_coulomb()});
+  return interface_law_of_text("set Law = " + name + "\n", modified_coulomb());
 }
 
 
@@ -242,7 +244,7 @@ check_cohesion(const std::string &name, const InterfaceLaw &law)
         {
           const double           d = 1.01 * end * i / m;
           const CohesiveResponse now =
-            law.hold(law.begin(history, 1.), n * d, t * d);
+            law.cohesion->hold(law.begin(history, 1.), n * d, t * d);
           area += 0.5 * (before + now.stiffness * d) * 1.01 * end / m;
           before  = now.stiffness * d;
           largest = std::max(largest, before);
@@ -252,8 +254,8 @@ check_cohesion(const std::string &name, const InterfaceLaw &law)
           if (i % 997 == 0 && damage > 0. && damage < 1.)
             {
               const auto at = [&](const double more_n, const double more_t) {
-                return law
-                  .hold(law.begin(history, 1.), n * d + more_n, t * d + more_t)
+                return law.cohesion
+                  ->hold(law.begin(history, 1.), n * d + more_n, t * d + more_t)
                   .damage;
               };
               if (n > 0.1)
@@ -271,7 +273,8 @@ check_cohesion(const std::string &name, const InterfaceLaw &law)
       PointHistory damaged = history;
       damaged.damage       = 0.5;
       grow(falls,
-           0.5 - law.hold(law.begin(damaged, 1.), 0.1 * n * end, 0.).damage);
+           0.5 - law.cohesion->hold(law.begin(damaged, 1.), 0.1 * n * end, 0.)
+                   .damage);
     }
   report(name + ": derivatives of the damage", deviation, 1e-6);
   report(name + ": work to the end, deviation from the criterion", work, 1e-6);
@@ -281,17 +284,45 @@ check_cohesion(const std::string &name, const InterfaceLaw &law)
 
 
 
+/** With all friction laws that it takes. */
+void
+check_frictions(const std::string &name)
+{
+  std::ofstream("interface_law_contract.csv")
+    << "slip_mm,phi\n0,1\n0.01,0.9\n0.02,0.4\n0.03,0.1\n0.05,0\n";
+  for (const FrictionLawPlugin &plugin : all_laws<FrictionLaw>())
+    {
+      const FrictionLawPointer friction =
+        law_of_text("set Friction law = " + plugin.name +
+                    "\nset Friction table = interface_law_contract.csv\n");
+      try
+        {
+          check_derivatives(name + ", " + plugin.name,
+                            *interface_law_of_text("set Law = " + name + "\n",
+                                                   friction));
+        }
+      catch (const EntryError &error) // refused, or without work to climb
+        {
+          report(name + ", " + plugin.name + ": refused",
+                 friction->depends_on_rate || friction->is_frictionless);
+        }
+    }
+}
+
+
+
 int
 main()
 {
-  for (const InterfaceLawPlugin &plugin : interface_law_plugins())
+  for (const InterfaceLawPlugin &plugin : all_laws<InterfaceLaw>())
     {
       const InterfaceLawPointer law = law_called(plugin.name);
+      check_frictions(plugin.name);
       check_derivatives(plugin.name, *law);
       check_energies(plugin.name, *law);
-      if (law->is_cohesive())
+      if (law->cohesion)
         check_cohesion(plugin.name, *law);
     }
   report("entries of the same name are the same entry",
-         entries_are_shared(interface_law_plugins()));
+         entries_are_shared<InterfaceLaw>());
 }

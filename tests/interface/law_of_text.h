@@ -2,36 +2,40 @@
 #define debond_tests_law_of_text_h
 
 #include <debond/input/entry_table.h>
-#include <debond/interface/bond_friction.h>
 #include <debond/interface/interface_law.h>
+#include <debond/interface/modified_coulomb.h>
 
 #include <map>
 #include <string>
 #include <vector>
 
-/** Whether entries of the same name are the same entry. */
-template <typename Plugin>
+/** Whether entries of the same name are the same entry, with one default. */
+template <class Law>
 bool
-entries_are_shared(const std::vector<Plugin> &plugins)
+entries_are_shared()
 {
-  std::map<std::string, std::string> subsection;
+  std::map<std::string, std::string> rows;
   bool                               same = true;
-  for (const Plugin &plugin : plugins)
-    for (const Debond::LawEntry &entry : plugin.entries)
-      same = same &&
-             subsection.emplace(entry.name, entry.subsection).first->second ==
-               entry.subsection;
+  for (const auto &plugin : Debond::all_laws<Law>())
+    {
+      Debond::EntryTable table;
+      plugin.law().declare(table);
+      for (const Debond::SceneEntry &entry : table.entries())
+        {
+          const std::string row = entry.full_name() + " = " + entry.value;
+          same = same && rows.emplace(entry.name, row).first->second == row;
+        }
+    }
   return same;
 }
 
-/** What entries in `Interface` of a scene choose. */
-template <typename Declare>
-Debond::LawChoice
-choice_of_text(const std::string &entries, const Declare &declare)
+/** The choice in entries in `Interface` of a scene. */
+template <class Law>
+Debond::LawChoice<Law>
+choice_of_text(const std::string &entries, Debond::LawChoice<Law> choice)
 {
-  Debond::LawChoice  choice;
   Debond::EntryTable table;
-  declare(table, choice);
+  choice.declare(table, "");
   for (const Debond::SceneEntry &entry :
        Debond::read_scene_text(entries, "law"))
     table.set(entry);
@@ -43,15 +47,18 @@ inline Debond::FrictionLawPointer
 law_of_text(const std::string &entries)
 {
   return Debond::create_friction_law(
-    choice_of_text(entries, Debond::declare_friction_laws));
+    choice_of_text<Debond::FrictionLaw>(entries,
+                                        {"Friction law", "modified coulomb"}));
 }
 
 /** The law of the interface of such entries. */
 inline Debond::InterfaceLawPointer
-interface_law_of_text(const std::string               &entries,
-                      const Debond::InterfaceLawParts &parts)
+interface_law_of_text(const std::string                &entries,
+                      const Debond::FrictionLawPointer &friction)
 {
-  return Debond::create_interface_law(
-    choice_of_text(entries, Debond::declare_interface_laws), parts);
+  const auto law =
+    choice_of_text<Debond::InterfaceLaw>(entries, {"Law", "friction"}).make();
+  law->friction = friction;
+  return Debond::initialised(law);
 }
 #endif

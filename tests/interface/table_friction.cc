@@ -3,7 +3,7 @@
 // steepest fall are those of its curve. What is wrong in a table is said with
 // its place.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/models/closed_forms.h>
 #include <debond/support/input_error.h>
 
@@ -39,8 +39,8 @@ sampled(const unsigned int n)
   std::vector<double> slip, phi;
   for (unsigned int i = 0; i <= n; ++i)
     {
-      slip.push_back(1.1 * law->kinks().back() * i / n);
-      phi.push_back(law->coefficient({1., slip.back()}, 0.).phi);
+      slip.push_back(1.1 * law->kinks.back() * i / n);
+      phi.push_back(law->coefficient({1., {slip.back()}}, 0.).phi);
     }
   return table_of(slip, phi);
 }
@@ -51,7 +51,7 @@ void
 check_convergence()
 {
   const auto   exact      = modified_coulomb();
-  const double end        = exact->kinks().back();
+  const double end        = exact->kinks.back();
   double       last_curve = 0, last_work = 0, last_torque = 0;
   bool         converges = true;
   for (const unsigned int n : {25, 50, 100, 200, 400})
@@ -62,11 +62,11 @@ check_convergence()
         {
           const double g_s = 1.5 * end * k / 1000.;
           grow(curve,
-               std::abs(table->coefficient({0.8, 0.3 * g_s}, 0.7 * g_s).mu -
-                        exact->coefficient({0.8, g_s}, 0.).mu));
+               std::abs(table->coefficient({0.8, {0.3 * g_s}}, 0.7 * g_s).mu -
+                        exact->coefficient({0.8, {g_s}}, 0.).mu));
           grow(work,
-               std::abs(table->friction_strength({0.8}, g_s) -
-                        exact->friction_strength({0.8}, g_s)));
+               std::abs(table->work({0.8}, 1., g_s).friction -
+                        exact->work({0.8}, 1., g_s).friction));
         }
       TorsionModel::Disk parameters;
       parameters.radius    = 2.5;
@@ -103,7 +103,7 @@ check_coarse_table()
   double     rows = 0, outside = 0, slope = 0, integral = 0, too_small = 0,
          too_large = 0;
   const auto mu    = [&](const double g_s) {
-    return table->coefficient({0.7, g_s}, 0.).mu;
+    return table->coefficient({0.7, {g_s}}, 0.).mu;
   };
   for (std::size_t i = 0; i < slip.size(); ++i)
     grow(rows, std::abs(mu(slip[i]) - (0.4 + 0.18 * 0.7 * phi[i])));
@@ -114,7 +114,7 @@ check_coarse_table()
       for (unsigned int k = 0; k <= 100; ++k)
         {
           const double g_s  = slip[i] + h * k / 100.;
-          const auto   here = table->coefficient({0.7, g_s}, 0.);
+          const auto   here = table->coefficient({0.7, {g_s}}, 0.);
           grow(outside, here.phi / 0.7 - phi[i]);
           grow(outside, phi[i + 1] - here.phi / 0.7);
           if (k > 0 && k < 100)
@@ -124,13 +124,14 @@ check_coarse_table()
                    h);
           sum += (k == 0 || k == 100 ? 1. : k % 2 == 1 ? 4. : 2.) * here.mu;
           grow(steepest, -here.dmu);
-          grow(too_small, (-here.dmu - table->steepest_fall({0.7, g_s})) * h);
+          grow(too_small,
+               (-here.dmu - table->steepest_fall({0.7, {g_s}}, 1.)) * h);
         }
       sum *= h / 300.;
       grow(integral,
-           std::abs(table->friction_strength({0.7, slip[i]}, h) - sum) / h);
+           std::abs(table->work({0.7, {slip[i]}}, 1., h).friction - sum) / h);
       if (i == 4) // the steepest of all
-        grow(too_large, table->steepest_fall({0.7}) / steepest - 1.);
+        grow(too_large, table->steepest_fall({0.7}, 1.) / steepest - 1.);
     }
   report("goes through the rows", rows, 1e-15);
   report("  and not beyond them in between", outside, 1e-14);
@@ -138,12 +139,12 @@ check_coarse_table()
   report("  integral and Simpson's rule, relative deviation", integral, 1e-13);
   report("  falls no steeper than it says", too_small, 1e-12);
   report("  and as steep somewhere, deviation", too_large, 1e-3);
-  const auto after = table->coefficient({0.7, 0.05}, 1.);
+  const auto after = table->coefficient({0.7, {0.05}}, 1.);
   report("  constant after the last row",
          after.phi == 0.7 * 0.05 && after.dmu == 0. &&
-           table->steepest_fall({0.7, 0.08}) == 0.);
+           table->steepest_fall({0.7, {0.08}}, 1.) == 0.);
   report("  integral after it, deviation",
-         std::abs(table->friction_strength({0.7, 0.1}, 2.) -
+         std::abs(table->work({0.7, {0.1}}, 1., 2.).friction -
                   2. * (0.4 + 0.18 * 0.7 * 0.05)),
          1e-14);
 }

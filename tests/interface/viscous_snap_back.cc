@@ -7,7 +7,7 @@
 // integrated in time by Boost; and the smaller the viscosity, the closer its
 // work comes to the energy that the closed form of the jump releases.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/models/closed_forms.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -79,7 +79,7 @@ public:
     for (std::size_t i = 0; i < radius.size(); ++i)
       {
         const double over = eps * (radius[i] * theta - state[i]) -
-                            friction->coefficient({1., state[i]}, 0.).mu * p;
+                            friction->coefficient({1., {state[i]}}, 0.).mu * p;
         rate[i] = std::max(0., over) / viscosity;
         rate.back() += weight[i] * viscosity * rate[i] * rate[i];
       }
@@ -151,7 +151,7 @@ deviation(const double viscosity, const unsigned int n_steps)
 {
   const auto rows =
     run_scene("viscous_snap_back",
-              scene_text,
+              ::scene_text,
               {"Interface/Viscosity=" + std::to_string(viscosity),
                "Load steps/Steps=1," + std::to_string(n_steps)});
   std::vector<double> times;

@@ -6,8 +6,8 @@
 // the vertical force.
 
 #include <debond/geometry/surface_geometry.h>
-#include <debond/interface/bond_friction.h>
 #include <debond/interface/contact_point.h>
+#include <debond/interface/modified_coulomb.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -182,7 +182,7 @@ check_constant_friction()
                                        std::array<double, 2>{{1e4, 200}}})
       {
         ContactPointLaw law;
-        law.joint              = friction_under_pressure({eps_n, coulomb(mu)});
+        law.joint              = friction_under_pressure(eps_n, coulomb(mu));
         law.tangential_penalty = eps_t;
         Wedge wedge(slope, law, G);
 
@@ -237,7 +237,7 @@ void
 check_falling_friction()
 {
   ContactPointLaw law;
-  law.joint = friction_under_pressure({600, default_friction_law()});
+  law.joint              = friction_under_pressure(600, modified_coulomb());
   law.tangential_penalty = 600;
   Wedge  wedge(0.1, law, 12.);
   double deviation = 0, spread = 0, largest = 0, smallest = 1;
@@ -247,7 +247,7 @@ check_falling_friction()
       if (!wedge.all(PointStatus::slip))
         continue;
       const double mu =
-        law.joint->friction->coefficient({1., wedge.slip(spread)}, 0.).mu;
+        law.joint->friction->coefficient({1., {wedge.slip(spread)}}, 0.).mu;
       grow(deviation,
            std::abs(wedge.force_ratio() - wedge_force_ratio(0.1, mu)));
       largest  = std::max(largest, mu);

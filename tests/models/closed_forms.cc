@@ -5,7 +5,7 @@
 // model against its integral done by hand. Mathieu's model: its torque against
 // the integral of its traction, its limits.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/models/closed_forms.h>
 
 #include <deal.II/base/exceptions.h>
@@ -106,8 +106,9 @@ check_constant_friction()
     }
   report("relative deviation from the elementary formula", largest, 1e-12);
 
-  auto frictionless     = paper();
-  frictionless.friction = Debond::modified_coulomb({0., 0., 0.022, 0.74, true});
+  auto frictionless = paper();
+  frictionless.friction =
+    Debond::modified_coulomb({}, Debond::ModifiedCoulomb::Coefficients::none);
   report("torque without friction",
          std::abs(RigidBodiesTorsion(frictionless).torque(degree)),
          1e-12);
@@ -129,7 +130,7 @@ check_points()
         const double slip = problem.slip(r, theta);
         const double t    = problem.point(r, theta).traction;
         grow(worst_sum, std::abs(slip + t / parameters.stiffness - r * theta));
-        const double mu = parameters.friction->coefficient({1., slip}, 0.).mu;
+        const double mu = parameters.friction->coefficient({1., {slip}}, 0.).mu;
         if (slip > 0)
           grow(worst_law, std::abs(t - mu * p));
         else
@@ -207,10 +208,11 @@ void
 check_prescribed_angles()
 {
   TorsionModel::Disk disk;
-  disk.radius        = 2.5;
-  disk.pressure      = 2.8113;
-  const auto form    = prescribed_angles_torsion(disk, 0.13 * degree, 1.13 * degree);
-  double     largest = 0;
+  disk.radius   = 2.5;
+  disk.pressure = 2.8113;
+  const auto form =
+    prescribed_angles_torsion(disk, 0.13 * degree, 1.13 * degree);
+  double largest = 0;
   for (const double angle : {0.05, 0.13, 0.2, 0.8, 1.12})
     {
       const double c     = 2.5 * std::min(1., 0.13 / angle);

@@ -101,7 +101,7 @@ towed(const double r, const double theta)
   const auto   parameters = paper();
   const double length     = parameters.pressure / parameters.stiffness;
   const auto   mu         = [&](const double slip) {
-    return parameters.friction->coefficient({1., slip}, 0.);
+    return parameters.friction->coefficient({1., {slip}}, 0.);
   };
   const double longest = mu(0).mu * length; // gap of a sticking point
   const double begin  = longest < 2 * r ? 2 * std::asin(longest / (2 * r)) : 7.;

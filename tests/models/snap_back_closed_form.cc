@@ -3,7 +3,7 @@
 // computation finds, and the energy released in the jump against the integral
 // between spring and torque.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/models/closed_forms.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -96,8 +96,7 @@ main()
   // the steepest fall of the torque, 8901.6 N mm/rad by the same independent
   // computation, divides machines that snap back from those that do not
   for (const double stiffness : {8700., 9100.})
-    report(
-      "snaps back at " + std::to_string(int(stiffness)) + " N mm/rad",
-      CompliantMachineTorsion(bodies, stiffness, 2. * degree).jumps.empty() ==
-        (stiffness > 8901.6));
+    report("snaps back at " + std::to_string(int(stiffness)) + " N mm/rad",
+           CompliantMachineTorsion(bodies, stiffness, 2. * degree)
+               .jumps.empty() == (stiffness > 8901.6));
 }

@@ -2,7 +2,7 @@
 // closed form angle by angle, for a disk that is bonded all over and one with a
 // bonded core.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/models/torsion_curve.h>
 
 #include <limits>
@@ -37,12 +37,11 @@ check(const std::string &name, const double bonded_radius)
     angles.push_back(i * 0.005);
 
   const Eigen::VectorXd torque  = torsion_curve(disk, angles);
-  const double largest = torque.maxCoeff();
-  double       worst   = 0.;
+  const double          largest = torque.maxCoeff();
+  double                worst   = 0.;
   for (std::size_t i = 0; i < angles.size(); ++i)
     grow(worst,
-         std::abs(torque[i] -
-                  RigidBodiesTorsion(disk).torque(angles[i])) /
+         std::abs(torque[i] - RigidBodiesTorsion(disk).torque(angles[i])) /
            largest);
   report(name + ": torque", worst, 1e-10);
 }

@@ -28,7 +28,7 @@ using namespace Debond;
 double
 phi_of(const double phi_0, const double slip)
 {
-  return default_friction_law()->coefficient({phi_0, slip}, 0.).phi;
+  return modified_coulomb()->coefficient({phi_0, {slip}}, 0.).phi;
 }
 
 

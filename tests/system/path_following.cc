@@ -5,7 +5,7 @@
 // rotation prescribed, before and after its jump, and the energy that the jump
 // releases against the area that the path encloses with it.
 
-#include <debond/interface/bond_friction.h>
+#include <debond/interface/modified_coulomb.h>
 #include <debond/models/closed_forms.h>
 
 #include <algorithm>

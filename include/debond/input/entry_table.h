@@ -46,7 +46,8 @@ namespace Debond
     /** A row. @p member: a number, a text, a list of numbers (vector or array);
      *  or a bool or an enumeration whose values are in the order of the choice.
      *  @p documentation is for users and states the unit. Throws EntryError if
-     *  the member has a value that is not allowed. */
+     *  the member has a value that is not allowed. Laws may share an entry: it
+     *  has one row, and goes to the members of all. */
     template <typename T>
     void
     add(const std::string   &name,

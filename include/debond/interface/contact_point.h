@@ -95,7 +95,7 @@ namespace Debond
     FrictionCoefficient
     friction(const InterfaceLaw &law, const ContactPointState &state) const
     {
-      return law.reported(state, phi_0);
+      return law.reported(state, phi_0, trial.pressure);
     }
 
     /** The step that leads to the trial state, as its law sees it. */

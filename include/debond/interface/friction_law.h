@@ -1,7 +1,7 @@
 #ifndef debond_interface_friction_law_h
 #define debond_interface_friction_law_h
 
-#include <debond/interface/law_entries.h>
+#include <debond/interface/law_choice.h>
 
 #include <array>
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace Debond
 {
-  /** What a friction law may keep of a point beside its sliding distance; what
-   *  the numbers mean is the law's own affair. */
+  /** Numbers that a friction law may keep of a point beside its sliding
+   *  distance; what they mean is the law's own affair. */
   using InternalVariables = std::array<double, 2>;
 
-  /** What the laws keep of a point from one accepted state to the next. */
+  /** History of a point, from one accepted state to the next. */
   struct PointHistory
   {
     static constexpr double far = 1e100; ///< [mm]
@@ -40,34 +40,84 @@ namespace Debond
     }
   };
 
-
-
-  /** A point at the beginning of a step, as a friction law sees it. */
-  struct FrictionState
+  /** Decay of a bond with the sliding distance, Eq.\ (13). */
+  struct Decay
   {
-    double            phi_0 = 1; ///< initial bonding, as far as it is left
-    double            slip  = 0; ///< g_s^n [mm]
-    InternalVariables internal{};
+    double value    = 0; ///< s, from 1, or less, down to 0
+    double slope    = 0; ///< ds/dg_s <= 0 [1/mm]
+    double integral = 0; ///< of s from 0 on [mm]
+    double steepest = 0; ///< bound of -ds/dg_s from here on [1/mm]
+  };
+
+  /** A point at the beginning of a step, as laws see it. */
+  struct PointStart
+  {
+    double       phi_0   = 1; ///< initial bonding
+    PointHistory history = {};
     /** dt of the step [unit of time]; 0 where no time passes, and nothing has a
      *  speed. */
     double duration = 0;
+    /** For now: nothing rubs, and slip does not count. */
+    bool frictionless = false;
+    /** Damage of the share that is held, at the end of the step. */
+    double damage = 0;
+    /** Decay of the bond with nothing slid in the step: laws of the interface
+     *  ask for it more than once, see InterfaceLaw::begin(). */
+    Decay at_rest = {};
+
+    /** phi_0 as far as opening has not ended the bond. */
+    double
+    bond_left() const
+    {
+      return history.bond_left(phi_0);
+    }
   };
 
-  /** The friction coefficient of a point and what it follows from. */
+
+
+  /** Limit L >= 0 of the tangential traction [MPa], Eq.\ (30), and its
+   *  derivatives. */
+  struct FrictionLimit
+  {
+    double value       = 0; ///< L
+    double by_pressure = 0; ///< dL/dp
+    double by_bond     = 0; ///< dL/dphi
+    /** dL/dd beside what the bond does [MPa/mm], d being the distance that the
+     *  point slides in the step. */
+    double by_slip = 0;
+  };
+
+  /** Friction coefficient of a point and what it follows from, for output. */
   struct FrictionCoefficient
   {
     double phi = 0; ///< bonding state, Eq. (13); 0 for laws without a bond
-    double mu  = 0; ///< Eq. (11)
+    double mu  = 0; ///< L/p, Eq. (11)
     double dmu = 0; ///< d mu / d(distance slid in the step) [1/mm]
   };
 
+  /** Works per area of a point in a step [N/mm]. */
+  struct PointWork
+  {
+    double friction = 0; ///< what the law lets the slip dissipate
+    /** How far that may be wrong, as pressure and speed change meanwhile. */
+    double friction_bound = 0;
+    double damage         = 0; ///< dissipated by opening
+    double adhesive       = 0; ///< what the bond accounts for of both
+    double lift = 0; ///< work of slip that is stored: it parts the faces
+  };
+
+
+
   /**
-   * The friction law of the interface: how mu follows from what a point has
-   * gone through and from the distance that it slides in the step. The limit of
-   * the tangential traction is mu p.
+   * Friction law of the interface: the limit L(p, phi, ...) of the tangential
+   * traction, by the pressure p and the bonding state phi = phi_0 s(g_s), whose
+   * decay s is the law's, too. What a law of the interface takes for p and phi
+   * is its own affair: with `adhesive' p counts c phi t_0 more.
    *
-   * All functions are pure: an object never changes, a trial may be thrown
-   * away, and points may be updated in any order. How to add a law:
+   * The members are the parameters of the law: declare() ties them to entries,
+   * initialise() makes of them what else the law needs. After that an object
+   * never changes, and all functions are pure: a trial may be thrown away, and
+   * points may be updated in any order. How to add a law:
    * doc/developers/law.md.
    */
   class FrictionLaw
@@ -75,140 +125,123 @@ namespace Debond
   public:
     virtual ~FrictionLaw() = default;
 
+    /** @name Parameters */
+    //@{
+    /** Rows of the law's own parameters, in `Interface'. Laws may share an
+     *  entry. */
+    virtual void
+    declare(EntryTable &)
+    {}
+    /** Called once, when the parameters are known. Throws EntryError. */
+    virtual void
+    initialise()
+    {}
+    //@}
+
     /** @name A point in a step */
     //@{
-    /** phi, mu and d mu/d @p distance at the end of a step in which the point
-     *  slides by @p distance >= 0 [mm]. A point sticks while its traction is
-     *  less than with distance 0. A negative mu fails the step. */
-    virtual FrictionCoefficient
-    coefficient(const FrictionState &start, double distance) const = 0;
+    /** L at the end of a step in which the point slides by @p distance >= 0
+     *  [mm], under the @p pressure > 0 [MPa], with the bonding state @p phi
+     *  then. A point sticks while its traction is less than with distance 0. A
+     *  negative L fails the step. */
+    virtual FrictionLimit
+    limit(const PointStart &start,
+          double            phi,
+          double            pressure,
+          double            distance) const = 0;
 
-    /** The internal variables at the end of that step. */
+    /** Internal variables at the end of that step. */
     virtual InternalVariables
-    advance(const FrictionState &start, double) const
+    advance(const PointStart &start, double) const
     {
-      return start.internal;
+      return start.history.internal;
     }
 
-    /** The internal variables of a point without a history. */
-    virtual InternalVariables
-    initial_variables() const
+    /** Work and its bound while pressure and speed are constant, and what of it
+     *  is the bond's; all exact if L is affine in phi and knows no distance
+     *  beside it. */
+    virtual PointWork
+    work(const PointStart &start, double pressure, double distance) const;
+
+    /** Bound of -dL/d(distance) [MPa/mm] >= 0 up to the @p distance in this
+     *  step, and for a law that does not depend on the rate for all that is
+     *  still to come: what has been found is the first solution, and unique,
+     *  while this is less than eps_t. Here for laws that are affine in phi and
+     *  know no distance beside it. */
+    virtual double
+    steepest_fall(const PointStart &start,
+                  double            pressure,
+                  double            distance = 0.) const;
+
+    /** Decay of the bond at the sliding distance @p slip [mm]; by default there
+     *  is no bond. */
+    virtual Decay
+    decay(double /*slip*/) const
     {
       return {};
     }
-
-    /** phi and mu in an accepted @p state, for output. */
-    virtual FrictionCoefficient
-    reported(const FrictionState &state) const
-    {
-      return coefficient(state, 0.);
-    }
     //@}
 
-    /** @name Works per pressure [mm] */
+    /** @name What kind of law it is, for initialise() to say */
     //@{
-    /** Integral of mu over the @p distance [mm] that a point slides. */
-    virtual double
-    friction_strength(const FrictionState &start, double distance) const = 0;
-
-    /** How much more that may be if the speed changes within the step. */
-    virtual double
-    strength_bound(const FrictionState &, double) const
-    {
-      return 0.;
-    }
-    //@}
-
-    /** @name Uniqueness */
-    //@{
-    /** Bound of -d mu/d(distance) [1/mm] >= 0 up to the @p distance in this
-     *  step, and for a law that does not depend on the rate for all that is
-     *  still to come: what has been found is the first solution, and unique,
-     *  while this is less than eps_t / p. */
-    virtual double
-    steepest_fall(const FrictionState &start, double distance = 0.) const = 0;
-
-    /** The entries that make it less, for messages. */
-    virtual std::string
-    entries_against_fall() const
-    {
-      return "";
-    }
-    //@}
-
-    /** @name What kind of law it is */
-    //@{
-    /** No tangential traction at all. */
-    virtual bool
-    is_frictionless() const
-    {
-      return false;
-    }
-    /** mu depends on time: such a law needs one. Closed forms and paths of
+    /** No tangential traction at all: then viscosity does not resist either. */
+    bool is_frictionless = false;
+    /** L depends on time: such a law needs one. Closed forms and paths of
      *  equilibrium have none. */
-    virtual bool
-    depends_on_rate() const
+    bool depends_on_rate = false;
+    /** Distance over which L changes [mm]. */
+    double characteristic_distance = 0;
+    /** Sliding distances [mm], ascending, between which L is smooth; up to the
+     *  first and from the last on it is constant. For closed forms; of laws
+     *  that do not depend on the rate. */
+    std::vector<double> kinks{0.};
+    /** Internal variables of a point without a history. */
+    InternalVariables initial_variables{};
+    /** A file whose content belongs to the law; empty: none. */
+    std::string file;
+    /** The entries that make steepest_fall() less, for messages. */
+    std::string entries_against_fall;
+    //@}
+
+    /** @name What follows */
+    //@{
+    /** L after a sliding distance that the bond has gone, too. */
+    FrictionLimit
+    limit_after(const PointStart &start, double pressure, double distance) const
     {
-      return false;
+      const double phi_0  = start.bond_left();
+      const Decay  s      = decay(start.history.slip + distance);
+      auto         result = limit(start, phi_0 * s.value, pressure, distance);
+      result.by_slip += result.by_bond * phi_0 * s.slope;
+      return result;
     }
-    /** phi matters: a bonded point that opens is worth a warning. */
-    virtual bool
+
+    /** phi, and mu at a @p pressure [MPa]. */
+    FrictionCoefficient
+    coefficient(const PointStart &start,
+                const double      distance,
+                const double      pressure = 1.) const
+    {
+      const FrictionLimit L = limit_after(start, pressure, distance);
+      return {start.bond_left() * decay(start.history.slip + distance).value,
+              L.value / pressure,
+              L.by_slip / pressure};
+    }
+
+    /** Whether phi matters: a bonded point that opens is worth a warning. */
+    bool
     has_bond() const
     {
-      return false;
+      return limit({}, 1., 1., 0.).value != limit({}, 0., 1., 0.).value;
     }
-    /** mu of what has no bond; asked for where there is one. */
-    virtual double
-    mu_without_bond() const
-    {
-      return 0.;
-    }
-    /** Distance over which mu changes [mm]. */
-    virtual double
-    characteristic_distance() const = 0;
-    /** A file that belongs to the law; empty: none. */
-    virtual std::string
-    file() const
-    {
-      return "";
-    }
-    //@}
-
-    /** @name For closed forms; of laws that do not depend on the rate */
-    //@{
-    /** Sliding distances [mm], ascending, between which mu is smooth; up to the
-     *  first and from the last on it is constant. */
-    virtual const std::vector<double> &
-    kinks() const;
     //@}
   };
 
   using FrictionLawPointer = std::shared_ptr<const FrictionLaw>;
+  using FrictionLawPlugin  = LawPlugin<FrictionLaw>;
 
-  using FrictionLawPlugin =
-    LawPlugin<FrictionLawPointer (*)(const LawChoice &)>;
-
-  /** All laws, in the order of the choices. */
-  const std::vector<FrictionLawPlugin> &
-  friction_law_plugins();
-
-  class EntryTable;
-
-  /** Rows for `Friction law` and for the entries of all laws, in `Interface`;
-   *  what they are set to goes to @p choice. */
-  void
-  declare_friction_laws(EntryTable &table, LawChoice &choice);
-
-  /** The law that has been chosen. Throws EntryError. */
+  /** The law that has been chosen, ready. Throws EntryError. */
   FrictionLawPointer
-  create_friction_law(const LawChoice &choice);
-
-  /** The law of a scene that says nothing. */
-  FrictionLawPointer
-  default_friction_law();
-
-  /** A law that no traction of a sensible interface overcomes. */
-  FrictionLawPointer
-  sticking_law();
+  create_friction_law(const LawChoice<FrictionLaw> &choice);
 } // namespace Debond
 #endif

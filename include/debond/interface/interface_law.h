@@ -1,44 +1,17 @@
 #ifndef debond_interface_interface_law_h
 #define debond_interface_interface_law_h
 
-#include <debond/interface/friction_law.h>
+#include <debond/interface/modified_coulomb.h>
 
-#include <algorithm>
+#include <Eigen/Core>
+
+#include <array>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace Debond
 {
-  /** A point at the beginning of a step, as a law of the interface sees it. */
-  struct PointStart
-  {
-    PointHistory history;
-    double       phi_0    = 1; ///< initial bonding
-    double       duration = 0; ///< of the step [unit of time], 0: none passes
-    /** For now: nothing rubs, and slip does not count. */
-    bool frictionless = false;
-    /** Of the share that is held, at the end of the step. */
-    double damage = 0;
-    /** phi and mu with nothing slid in the step, where that is asked for more
-     *  than once: see InterfaceLaw::ask_at_rest(). */
-    std::optional<FrictionCoefficient> at_rest = std::nullopt;
-
-    /** What the friction law is to know. */
-    FrictionState
-    friction() const
-    {
-      return {history.bond_left(phi_0),
-              history.slip,
-              history.internal,
-              duration};
-    }
-  };
-
-
-
-  /** What an interface carries at the end of a step, by the gap g_n across it
+  /** Tractions of an interface at the end of a step, by the gap g_n across it
    *  and the distance d that the point has slid in the step. */
   struct InterfaceResponse
   {
@@ -57,7 +30,7 @@ namespace Debond
 
 
 
-  /** What a full bond does in tension; 0 of laws without strength there. */
+  /** Behaviour of a full bond in tension; 0 of laws without strength there. */
   struct Tension
   {
     double strength  = 0; ///< [MPa]
@@ -72,99 +45,71 @@ namespace Debond
 
 
 
-  /** Parts of a full bond: phi is phi_0 times both. */
-  struct BondLeft
+  struct BilinearBond;
+
+  /**
+   * Law of the interface: from the history of a point, the gap across it and
+   * the distance that it slides to the pressure, the limit of the tangential
+   * traction, energies, and a new history. Which points slide, and where to, is
+   * the same for all laws (slip_problem.h).
+   *
+   * All laws push with a stiffness eps_n where the faces are pressed together,
+   * and rub with a friction law. This one does no more: p = -eps_n g_n while
+   * that is positive, and L of that, as in the paper. All functions are pure.
+   * How to add a law: doc/developers/law.md.
+   */
+  class InterfaceLaw
   {
-    double by_opening = 1, by_slip = 1;
-  };
+  public:
+    virtual ~InterfaceLaw() = default;
 
+    /** @name Parameters */
+    //@{
+    /** Rows of the law's own parameters, in `Interface'. */
+    virtual void
+    declare(EntryTable &)
+    {}
+    /** Called once, when parameters and the members below are known. Returns
+     * false if the law comes to friction under pressure. Throws EntryError. */
+    virtual bool
+    initialise();
+    //@}
 
-
-  /** The share of a point's area that is bonded to a place of the master, at a
-   *  gap to that place: the traction is the stiffness times the gap, without
-   *  its normal part where that presses. */
-  struct CohesiveResponse
-  {
-    double stiffness           = 0; ///< [MPa/mm]
-    double stiffness_by_damage = 0; ///< [MPa/mm]
-    double damage              = 0; ///< from 0 to 1, at the end of the step
-    double damage_by_normal = 0, damage_by_tangential = 0; ///< [1/mm]
-  };
-
-
-
-  /** Works per area of a point in a step [N/mm]. */
-  struct PointWork
-  {
-    double friction = 0; ///< what the law lets the slip dissipate
-    /** How far that may be wrong, as pressure and speed change meanwhile. */
-    double friction_bound = 0;
-    double damage         = 0; ///< dissipated by opening
-    double adhesive       = 0; ///< what the bond accounts for of both
-    double lift = 0; ///< work of slip that is stored: it parts the faces
-  };
-
-
-
-  /** What a law of the interface is made of besides its own entries. */
-  struct InterfaceLawParts
-  {
-    double             stiffness; ///< eps_n [MPa/mm]
-    FrictionLawPointer friction;
+    /** @name Members of all laws */
+    //@{
+    double             stiffness = 585; ///< eps_n [MPa/mm]
+    FrictionLawPointer friction;        ///< never null where points are asked
     bool               opening_breaks_bond = false;
-    /** `Friction update = explicit': mu is that at which the step begins,
+    /** `Friction update = explicit': L is that at which the step begins,
      *  whatever the distance, so that a softening bond lags behind by a step.
      *  It has no slope and is never ambiguous. Works are still those of the
      *  law. See doc/evidence/stability.md. */
     bool explicit_friction = false;
-
-    /** Whether friction depends on the duration of a step. */
-    bool
-    depends_on_rate() const
-    {
-      return !explicit_friction && friction->depends_on_rate();
-    }
-  };
-
-
-
-  /**
-   * The law of the interface: from what a point has gone through, the gap
-   * across it and the distance that it slides to the pressure, the limit of the
-   * tangential traction, energies, and a new history. Which points slide, and
-   * where to, is the same for all laws (slip_problem.h).
-   *
-   * All laws push with a stiffness eps_n where the faces are pressed together,
-   * and rub with a friction law. All functions are pure. How to add a law:
-   * doc/developers/law.md.
-   */
-  class InterfaceLaw : public InterfaceLawParts
-  {
-  public:
-    explicit InterfaceLaw(const InterfaceLawParts &parts)
-      : InterfaceLawParts(parts)
-    {}
-    virtual ~InterfaceLaw() = default;
+    //@}
 
     /** @name A point in a step */
     //@{
     /** The point with its history @p history begins a step. */
     PointStart
     begin(const PointHistory &history,
-          double              phi_0,
-          double              duration     = 0.,
-          bool                frictionless = false) const;
+          const double        phi_0,
+          const double        duration     = 0.,
+          const bool          frictionless = false) const
+    {
+      return {phi_0,
+              history,
+              duration,
+              frictionless,
+              history.damage,
+              friction->decay(history.slip)};
+    }
 
-    /** Once for all places that respond() will be asked at. */
-    void
-    ask_at_rest(PointStart &start) const;
-
-    /** At the end of the step, at the gap @p g_n [mm], after sliding by
-     *  @p distance [mm]. Goes on smoothly beyond reach(), where Newton's method
-     *  may look, and where touching points have their tangent. A point cannot
-     *  slide backwards: at negative distances nothing rises. */
+    /** Tractions at the end of the step, at the gap @p g_n [mm], after sliding
+     *  by @p distance [mm]. Goes on smoothly beyond reach(), where Newton's
+     *  method may look, and where touching points have their tangent. A point
+     *  cannot slide backwards: at negative distances nothing rises. */
     virtual InterfaceResponse
-    respond(const PointStart &start, double g_n, double distance) const = 0;
+    respond(const PointStart &start, double g_n, double distance) const;
 
     /** The gap up to which the point is carried [mm]. */
     virtual double
@@ -173,17 +118,17 @@ namespace Debond
       return 0.;
     }
 
-    /** The history of a point that is carried at the end of the step. */
+    /** History of a point that is carried at the end of the step. */
     virtual PointHistory
     advance(const PointStart &start, double g_n, double distance) const;
 
-    /** The history of a point that opens. */
+    /** History of a point that opens. */
     virtual PointHistory
     open(const PointHistory &history) const;
 
-    /** The works of a point that is carried. */
+    /** Works of a point that is carried. */
     virtual PointWork
-    work(const PointStart &start, double g_n, double distance) const = 0;
+    work(const PointStart &start, double g_n, double distance) const;
     //@}
 
     /** Bound of -dL/dd [MPa/mm] >= 0 at the @p pressure [MPa], up to the @p
@@ -194,130 +139,86 @@ namespace Debond
                       double            pressure,
                       double            distance) const;
 
-    /** @name Laws that hold a share of the area at the place where it bonded */
-    //@{
-    virtual bool
-    is_cohesive() const
-    {
-      return false;
-    }
-    /** What that share does at the gap @p g_n across the interface and the
-     *  distance @p delta_t along it [mm]. */
-    virtual CohesiveResponse
-    hold(const PointStart &, double /*g_n*/, double /*delta_t*/) const
-    {
-      return {};
-    }
-    /** The gap at which damage is 1, for the measure of a path [mm]. */
-    virtual double
-    length_of_damage() const
-    {
-      return 0.;
-    }
-    //@}
-
-    /** phi and mu in an accepted state, for output. */
+    /** phi, and mu at a @p pressure [MPa], in an accepted state, for output. */
     virtual FrictionCoefficient
-    reported(const PointHistory &history, double phi_0) const;
+    reported(const PointHistory &history, double phi_0, double pressure) const;
 
-    /** What opening and what slip have each left of a full bond, for output. */
-    BondLeft
+    /** Parts of a full bond that opening and slip have each left, for output:
+     *  phi is phi_0 times both. */
+    std::array<double, 2>
     left_by_each(const PointHistory &history) const;
 
-    /** @name What kind of law it is */
+    /** @name What kind of law it is, for initialise() to say */
     //@{
-    /** What a full bond does in tension. */
-    virtual Tension
-    tension() const
-    {
-      return {};
-    }
+    /** Behaviour of a full bond in tension. */
+    Tension tension;
+    /** Bond of the share of the area that is held at the place where it bonded;
+     *  null where no such share is. */
+    std::shared_ptr<const BilinearBond> cohesion;
+    /** Distance over which the interface changes [mm]. */
+    double characteristic_distance = 0;
+    //@}
+
+    /** @name What follows */
+    //@{
     bool
     pulls() const
     {
-      return tension().strength > 0.;
+      return tension.strength > 0.;
     }
     /** How far a point has been opened [mm], which never falls: with the
      *  sliding distance what a path of equilibrium is measured by. */
-    virtual double
-    opened(const PointHistory &) const
+    double
+    opened(const PointHistory &history) const
     {
-      return 0.;
+      return cohesion ? 0. : history.damage;
     }
-    /** Distance over which the interface changes [mm]. */
-    virtual double
-    characteristic_distance() const
+    /** Whether friction depends on the duration of a step. */
+    bool
+    depends_on_rate() const
     {
-      return friction->characteristic_distance();
+      return !explicit_friction && friction->depends_on_rate;
     }
     //@}
 
   protected:
-    /** phi, mu and its slope after sliding by @p distance, which is negative
-     *  only at trial places. A point cannot slide against what pulls it. Where
-     *  Newton's method looks there mu goes on along its tangent, but never
-     *  rises: the distance alone would have a second solution there where
-     *  friction rises with the speed, a rise one where it falls steeply. */
-    FrictionCoefficient
-    coefficient(const PointStart &start, const double distance) const
-    {
-      if (start.frictionless)
-        return {};
-      if (distance > 0. && !explicit_friction)
-        return friction->coefficient(start.friction(), distance);
-      FrictionCoefficient result =
-        start.at_rest ? *start.at_rest :
-                        friction->coefficient(start.friction(), 0.);
-      if (explicit_friction)
-        result.dmu = 0.;
-      if (distance < 0.)
-        {
-          result.dmu = std::max(0., result.dmu);
-          result.mu += result.dmu * distance;
-        }
-      return result;
-    }
-    /** The work of a point that rubs with mu p from the pressure @p p to
-     *  @p p_end [MPa], none of which is less than 0. */
-    PointWork
-    work_of_friction(const PointStart &start,
-                     double            p,
-                     double            p_end,
-                     double            distance) const;
+    /** Number of a point, and its derivatives by gap and distance. */
+    using Changing = Eigen::Vector3d;
+
+    /** phi_0 s(g_s) after a distance. */
+    Changing
+    bond_after(const PointStart &start, double distance) const;
+
+    /** Writes L and its derivatives: that of the friction law under what is
+     *  pressed together, @p pressed > 0 [MPa], with the bonding state @p phi.
+     */
+    void
+    rub(const PointStart  &start,
+        double             distance,
+        const Changing    &pressed,
+        const Changing    &phi,
+        InterfaceResponse &response) const;
+
+    /** For a law called @p law, which breaks the bond of the friction law by
+     *  opening as well. Throws EntryError if there is none. */
+    void
+    require_bond(const std::string &law) const;
   };
 
   using InterfaceLawPointer = std::shared_ptr<const InterfaceLaw>;
+  using InterfaceLawPlugin  = LawPlugin<InterfaceLaw>;
 
-
-
-  using InterfaceLawPlugin =
-    LawPlugin<InterfaceLawPointer (*)(const LawChoice &,
-                                      const InterfaceLawParts &)>;
-
-  class BondFriction;
-  /** The bond of the friction law, for the law of the interface called @p law,
-   *  which breaks it by opening as well. Throws EntryError. */
-  std::shared_ptr<const BondFriction>
-  bond_that_opens(const InterfaceLawParts &parts, const std::string &law);
-
-  /** All laws, in the order of the choices. */
-  const std::vector<InterfaceLawPlugin> &
-  interface_law_plugins();
-
-  /** Rows for `Law` and for the entries of all laws, in `Interface`; what they
-   *  are set to goes to @p choice. */
-  void
-  declare_interface_laws(EntryTable &table, LawChoice &choice);
-
-  /** The law that has been chosen. Throws EntryError. */
+  /** @p law, or what it comes to, ready. Throws EntryError. */
   InterfaceLawPointer
-  create_interface_law(const LawChoice &choice, const InterfaceLawParts &parts);
+  initialised(const std::shared_ptr<InterfaceLaw> &law);
 
-  /** p = -eps_n g_n while that is positive, and L = mu p. */
+  /** Law of the paper. */
   InterfaceLawPointer
-  friction_under_pressure(const InterfaceLawParts &parts);
+  friction_under_pressure(double stiffness, const FrictionLawPointer &friction);
 
-  /** Where a point slides in a step. */
+
+
+  /** Direction in which a point slides in a step. */
   enum class SlipDirection
   {
     integrated,  ///< along its way, see TowedGap
@@ -325,11 +226,11 @@ namespace Debond
     previous_gap ///< along that of the step before, Eq. (31) as printed
   };
 
-  /** What governs all points of an interface. */
+  /** Law and numbers that govern all points of an interface. */
   struct ContactPointLaw
   {
     InterfaceLawPointer joint =
-      friction_under_pressure({585, default_friction_law()});
+      friction_under_pressure(585, modified_coulomb());
     double tangential_penalty = 585; ///< eps_t [MPa/mm]
     /** eta [MPa per (mm per unit of time)]: resistance of a point to the speed
      *  it slides with. */
@@ -340,7 +241,7 @@ namespace Debond
     bool
     is_viscous() const
     {
-      return viscosity > 0. || joint->tension().viscosity > 0.;
+      return viscosity > 0. || joint->tension.viscosity > 0.;
     }
   };
 } // namespace Debond

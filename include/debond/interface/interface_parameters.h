@@ -17,9 +17,9 @@ namespace Debond
     double       tangential_penalty  = 0;   ///< eps_t [MPa/mm], 0: as eps_n
     bool         opening_breaks_bond = false;
     /** Never null; made of what a scene says of it, friction_choice. */
-    FrictionLawPointer friction = default_friction_law();
-    LawChoice          friction_choice;
-    LawChoice          law_choice;      ///< of the law of the interface
+    FrictionLawPointer      friction = modified_coulomb();
+    LawChoice<FrictionLaw>  friction_choice{"Friction law", "modified coulomb"};
+    LawChoice<InterfaceLaw> law_choice{"Law", "friction"};
     double friction_starts_at = -1e100; ///< frictionless before this time
     /** By how much the implant is thicker than its bore, of t [mm]. */
     std::string   interference   = "0";
@@ -63,7 +63,7 @@ namespace Debond
     bool
     is_friction_only() const
     {
-      return law_choice.law.empty() || law_choice.law == "friction";
+      return law_choice.law == "friction";
     }
 
     /** See ContactPointLaw; makes the law. */

@@ -1,7 +1,7 @@
 #ifndef debond_models_closed_forms_h
 #define debond_models_closed_forms_h
 
-#include <debond/interface/friction_law.h>
+#include <debond/interface/modified_coulomb.h>
 
 #include <limits>
 #include <memory>
@@ -31,7 +31,14 @@ namespace Debond
       double phi_0     = 1; ///< initial bonding inside bonded_radius
       /** Points further out are not bonded at the start [mm]. */
       double bonded_radius        = std::numeric_limits<double>::infinity();
-      FrictionLawPointer friction = default_friction_law();
+      FrictionLawPointer friction = modified_coulomb();
+
+      /** Limit of the traction by a bond that slip has worn, and its slope. */
+      FrictionLimit
+      limit(const double phi_0, const double slip = 0.) const
+      {
+        return friction->limit_after({phi_0, {slip}}, pressure, 0.);
+      }
     };
     const Disk disk;
 
@@ -91,13 +98,6 @@ namespace Debond
     {
       return r <= disk.bonded_radius ? disk.phi_0 : 0.;
     }
-    /** The friction coefficient of a bond after the sliding distance
-     *  @p slip [mm]. */
-    FrictionCoefficient
-    friction(const double phi_0, const double slip) const
-    {
-      return disk.friction->coefficient({phi_0, slip}, 0.);
-    }
     /** The point at the radius @p r after the sliding distance @p slip. */
     Point
     point_with(bool sticks, double r, double slip, double theta) const;
@@ -113,10 +113,10 @@ namespace Debond
    * with the path (doc/explanation/closed_forms.md).
    *
    * The pressure p is eps_n d. A point at radius r sticks with the
-   * traction t = eps_t r theta while that is at most mu(0) p. Beyond, its path
+   * traction t = eps_t r theta while that is at most L(p, 0). Beyond, its path
    * r theta is sliding plus elastic deformation of the interface,
    *
-   *   r theta = g_s + t / eps_t,   t = mu(g_s) p,
+   *   r theta = g_s + t / eps_t,   t = L(p, g_s),
    *
    * and the torque is T = 2 pi int_0^R r^2 t dr.
    *
@@ -135,7 +135,7 @@ namespace Debond
     static bool
     has_unique_solution(const Disk &disk)
     {
-      return disk.friction->steepest_fall({disk.phi_0}) * disk.pressure <
+      return disk.friction->steepest_fall({disk.phi_0}, disk.pressure) <
              disk.stiffness;
     }
 
@@ -160,7 +160,7 @@ namespace Debond
     double
     path(const double slip, const double phi_0) const
     {
-      return slip + friction(phi_0, slip).mu * disk.pressure / disk.stiffness;
+      return slip + disk.limit(phi_0, slip).value / disk.stiffness;
     }
   };
 

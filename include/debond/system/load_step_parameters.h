@@ -99,7 +99,7 @@ namespace Debond
     bool
     has_friction() const
     {
-      return !interface.friction->is_frictionless();
+      return !interface.friction->is_frictionless;
     }
     /** Whether a step that begins at @p time has friction. It starts at a
      *  planned time, up to rounding. */

@@ -46,7 +46,7 @@ Writes a scene of debond as an input of CalculiX.
 
     const FrictionLaw       &friction = *scene.interface.friction;
     const BondingParameters &bonding  = scene.interface.bonding;
-    if (friction.depends_on_rate())
+    if (friction.depends_on_rate)
       throw InputError(cannot + "a friction law that depends on the rate");
     if (friction.has_bond() && bonding.initial_bonding != 0 &&
         bonding.bonded_fraction != 0)
@@ -54,7 +54,7 @@ Writes a scene of debond as an input of CalculiX.
                        "a friction coefficient that changes with sliding: "
                        "expected Interface / Friction law = coulomb or "
                        "frictionless, or equal coefficients");
-    if (!friction.is_frictionless() &&
+    if (!friction.is_frictionless &&
         scene.interface.friction_starts_at > scene.load_steps.times.front())
       throw InputError(cannot +
                        "Interface / Friction starts at after the first time");
@@ -144,7 +144,7 @@ Writes a scene of debond as an input of CalculiX.
     static Eigen::Vector3d
     midpoint(const Eigen::Vector3d &a,
              const Eigen::Vector3d &b,
-             const BulkSpace        &body)
+             const BulkSpace       &body)
     {
       Eigen::Vector3d       middle    = (a + b) / 2;
       const BodyParameters &coin      = body.parameters();
@@ -263,7 +263,7 @@ Writes a scene of debond as an input of CalculiX.
     // A line holds 16 numbers at most.
     void
     write_elements(std::ostream      &out,
-                   const BulkSpace    &body,
+                   const BulkSpace   &body,
                    const std::string &name,
                    const unsigned int n_before) const
     {
@@ -303,8 +303,8 @@ Writes a scene of debond as an input of CalculiX.
     write_contact(std::ostream &out) const
     {
       const InterfaceParameters &interface = scene.interface;
-      const double               mu = interface.friction->mu_without_bond();
-      const bool slave_is_implant   = interface.slave == Side::implant;
+      const double mu = interface.friction->coefficient({0.}, 0.).mu;
+      const bool   slave_is_implant = interface.slave == Side::implant;
       // The tension behind the slope means nothing for this type of contact.
       out << "*SURFACE INTERACTION, NAME=INTERFACE\n"
              "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n"
@@ -363,7 +363,7 @@ Writes a scene of debond as an input of CalculiX.
 
     const Scene               scene;
     const std::string         element;
-    const BulkSpace            bone, implant;
+    const BulkSpace           bone, implant;
     const Nodes               bone_nodes, implant_nodes;
     Chuck                     chuck;
     const std::vector<double> times;

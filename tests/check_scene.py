@@ -255,7 +255,7 @@ class Scene:
         if how:
             if place is None and row is None:
                 raise Problem(f'there is no value of {where}')
-            place = self.value(place, own.summary) if place else row[1][where]
+            place = self.value(place, {**own.summary, **(row[1] if row else {})}) if place else row[1][where]
             return results.at(name, where, place) if how == 'at' else results.ripple(name, where, place)
         if row and match['kind'] and name in results.rows[0]:
             if len(results.rows) != len(own.rows):

@@ -4,7 +4,6 @@ these comments is described in doc/developers/tests.md.
 
     tests/check_scene.py build/release/debond SCENE.prm DIRECTORY            all runs of the scene
     tests/check_scene.py build/release/debond SCENE.prm DIRECTORY RUN        this one alone
-    tests/check_scene.py --list SCENE.prm                                    names of its runs, with `slow' before some
 
 Results go to the directory. Prints a line for each expectation and, for the table of doc/evidence/stability.md, a row
 for each run. Exit code 0 if everything is as expected. DEBOND_TEST_THREADS is the number of threads.
@@ -23,7 +22,8 @@ COMMENT = re.compile(r'\s*#\s*(let|expect|wrong|refused|failed|slow run|run)(?:\
 QUANTITY = re.compile(r'(?P<name>\w+)(?: of (?P<kind>variant|run) (?P<which>\S+?))?'
                       r'(?: (?:(?P<measure>max|last)|(?P<how>at|ripple after) (?P<where>\w+)(?: (?P<place>\S+))?))?')
 EXPECTATION = re.compile(r'(?:in (?P<all>rows|curve|levels|variants)(?: where (?P<where>.+?))?: )?'
-                         r'(?P<left>.+?) (?P<relation>=|below|above) (?P<right>.+?)(?: within (?P<tolerance>.+?)(?P<percent> %)?)?')
+                         r'(?P<left>.+?) (?P<relation>=|below|above) (?P<right>.+?)'
+                         r'(?: within (?P<tolerance>.+?)(?P<percent> %)?)?')
 BUILT_IN = {function.__name__: function for function in (abs, max, min, range, sum)}
 
 
@@ -126,7 +126,8 @@ def read_calibration(directory):
     summary = {name: number(text['curves'][0][name]) for name in ('e_mp', 'e_rel')}
     for name, unknown in text['unknowns'].items():
         summary[name] = number(unknown['value'])
-        summary[name + '_width'] = math.inf if unknown['upper_95'] is None else number(unknown['upper_95']) - number(unknown['lower_95'])
+        upper = number(unknown['upper_95'])
+        summary[name + '_width'] = upper if upper == math.inf else upper - number(unknown['lower_95'])
     for candidate in text['candidates']:
         for name, width in candidate['half_widths'].items():
             summary[f'{name}_after_experiment_{candidate["experiment"]}'] = number(width)
@@ -202,6 +203,8 @@ class Scene:
                 match = COMMENT.match(line)
                 if match:
                     self.read(*match.groups())
+                elif self.runs and re.match(r'\s*#\s+--set ', line):  # the run goes on
+                    self.runs[-1].options += shlex.split(line.strip(' #\n'))
         if not self.runs:
             self.runs = [Run('default', '', False)]
         for run in self.runs:
@@ -316,9 +319,10 @@ class Verdict:
         if not match['all']:
             return [(results, None, '')]
         if match['all'] in ('rows', 'curve'):
-            every = [(results, (number, row), f' in row {number}') for number, row in enumerate(getattr(results, match['all']))]
+            every = [(results, row, f' in row {row[0]}') for row in enumerate(getattr(results, match['all']))]
         else:
-            every = [(one, None, f' in {match["all"][:-1]} {number}') for number, one in enumerate(getattr(results, match['all']), 1)]
+            every = [(one, None, f' in {match["all"][:-1]} {number}')
+                     for number, one in enumerate(getattr(results, match['all']), 1)]
         return [place for place in every if not match['where'] or scene.formula(match['where'], place[0], place[1])]
 
     @staticmethod
@@ -339,10 +343,6 @@ class Verdict:
 
 
 def main():
-    if sys.argv[1:2] == ['--list'] and len(sys.argv) == 3:
-        for run in Scene(sys.argv[2]).runs:
-            print(('slow ' if run.is_slow else '') + run.name)
-        return 0
     if len(sys.argv) not in (4, 5):
         sys.exit(__doc__)
     debond, scene_file, directory = sys.argv[1:4]

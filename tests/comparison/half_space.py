@@ -64,9 +64,9 @@ def layer_torque(G, R, angle, eps_t):
 
 class TorsionalPartialSlip:
     """A circular contact on a half space that is twisted. The traction is limited by q(r) = mu p(r), so the rim slips and a
-    disk of the radius c sticks. Torsion does not change p. When the stick radius is s and the angle grows by dtheta, the disk
-    r < s turns like a rigid one, so T grows by 16/3 G s^3 dtheta and the traction by (4 G / pi) r dtheta / sqrt(s^2 - r^2). That
-    the sum of these is q(r) for r > c is an equation of Abel's type with the solution
+    disk of the radius c sticks. Torsion does not change p. When the stick radius is s and the angle grows by dtheta, the
+    disk r < s turns like a rigid one, so T grows by 16/3 G s^3 dtheta and the traction by (4 G/pi) r dtheta / sqrt(s^2 - r^2).
+    That the sum of these is q(r) for r > c is an equation of Abel's type with the solution
 
       theta(c) = 1/(2G) int_c^R q(r) dr / sqrt(r^2 - c^2),
       T(c) = 4 int_c^R q(r) [2/3 c^3 / sqrt(r^2 - c^2) + r^2 arccos(c/r) + c sqrt(r^2 - c^2)] dr,
@@ -88,7 +88,8 @@ class TorsionalPartialSlip:
         middle = math.sqrt(0.5) if scale > 0. else 0.
         inner = integral(lambda v: part(scale * math.sinh(v), leg(X, scale * math.sinh(v))) * scale * math.cosh(v),
                          0., math.asinh(middle * X / scale)) if scale > 0. else 0.
-        return inner + integral(lambda phi: part(X * math.sin(phi), X * math.cos(phi)) * X * math.cos(phi), math.asin(middle), PI / 2.)
+        return inner + integral(lambda phi: part(X * math.sin(phi), X * math.cos(phi)) * X * math.cos(phi),
+                                math.asin(middle), PI / 2.)
 
     def angle_at_stick_radius(self, c):
         return self.integrate(c, c, lambda r, x: 1.) / (2. * self.G)
@@ -151,7 +152,8 @@ def check_torsion(R=2.5, G=6900., mu=0.3, P=70., q=1.4):
     report('uniform: T/T_max against known values',
            max(abs(plain.torque_at_stick_radius(k * R) / T_max - ratio) for k, ratio in known.items()), 1e-6)
     report('uniform: T against 4/3 q R^3 [arccos k + k sqrt(1 - k^2)]',
-           max(relative(plain.torque_at_stick_radius(k * R), 4. / 3. * q * R**3 * (math.acos(k) + k * leg(1., k))) for k in known), 1e-11)
+           max(relative(plain.torque_at_stick_radius(k * R), 4. / 3. * q * R**3 * (math.acos(k) + k * leg(1., k)))
+               for k in known), 1e-11)
     report('uniform: theta against q/(2G) arcosh(1/k)',
            max(relative(plain.angle_at_stick_radius(k * R), q / (2. * G) * math.acosh(1. / k)) for k in known), 1e-11)
     report('uniform: at a thousand times the angle of T_max/2', relative(plain.torque(1000. * q / G), T_max), 1e-11)
@@ -170,17 +172,25 @@ def check_torsion(R=2.5, G=6900., mu=0.3, P=70., q=1.4):
         def moment_of_angle(t):
             return (R * math.cos(t))**2 * problem.angle_at_stick_radius(R * math.cos(t)) * R * math.sin(t)
         report(f'{name}: T by parts',
-               max(relative(problem.torque_at_stick_radius(c), reissner_sagoci_torque(G, c, problem.angle_at_stick_radius(c)) +
-                            16. * G * quad(moment_of_angle, 0., math.acos(c / R), epsrel=1e-10)[0]) for c in (0.9 * R, 0.3 * R)), 1e-9)
-        report(f'{name}: inverse', max(relative(problem.stick_radius(problem.angle_at_stick_radius(k * R)), k * R) for k in (0.95, 0.6, 0.2)), 1e-9)
+               max(relative(problem.torque_at_stick_radius(c),
+                            reissner_sagoci_torque(G, c, problem.angle_at_stick_radius(c)) +
+                            16. * G * quad(moment_of_angle, 0., math.acos(c / R), epsrel=1e-10)[0])
+                   for c in (0.9 * R, 0.3 * R)), 1e-9)
+        report(f'{name}: inverse',
+               max(relative(problem.stick_radius(problem.angle_at_stick_radius(k * R)), k * R) for k in (0.95, 0.6, 0.2)), 1e-9)
         moment = jump = 0.
         for k in (0.9, 0.5, 0.1):
             c = k * R
             # r = c sin(phi) and r = R sin(phi): tractions have the slopes and poles of square roots at c and R
-            inner = quad(lambda phi: (c * math.sin(phi))**2 * problem.traction(c * math.sin(phi), c) * c * math.cos(phi), 0., PI / 2., epsrel=1e-10)[0]
-            outer = quad(lambda phi: (R * math.sin(phi))**2 * problem.q(R * math.sin(phi), R * math.cos(phi)) * R * math.cos(phi),
-                         math.asin(k), PI / 2., epsrel=1e-10)[0]
-            moment = max(moment, relative(2. * PI * (inner + outer), problem.torque_at_stick_radius(c)))
+            def inner(phi):
+                r = c * math.sin(phi)
+                return r * r * problem.traction(r, c) * c * math.cos(phi)
+
+            def outer(phi):
+                r, w = R * math.sin(phi), R * math.cos(phi)
+                return r * r * problem.q(r, w) * w
+            sums = quad(inner, 0., PI / 2., epsrel=1e-10)[0] + quad(outer, math.asin(k), PI / 2., epsrel=1e-10)[0]
+            moment = max(moment, relative(2. * PI * sums, problem.torque_at_stick_radius(c)))
             jump = max(jump, relative(problem.traction(c * (1. - 1e-12), c), problem.traction(c, c)))
         report(f'{name}: moment of the tractions against T', moment, 1e-8)
         report(f'{name}: jump of the traction at the stick radius', jump, 1e-5)
@@ -188,7 +198,8 @@ def check_torsion(R=2.5, G=6900., mu=0.3, P=70., q=1.4):
     first = mu * P / (8. * G * R * R)
     report('flat punch: angle of first slip', relative(punch.angle_at_stick_radius(R), first), 1e-11)
     report("flat punch: full stick is Reissner's and Sagoci's",
-           max(relative(punch.torque(part * first), reissner_sagoci_torque(G, R, part * first)) for part in (0.01, 0.5, 0.999)), 1e-11)
+           max(relative(punch.torque(part * first), reissner_sagoci_torque(G, R, part * first))
+               for part in (0.01, 0.5, 0.999)), 1e-11)
 
 
 def check_layer(R=2.5, G=6900.):
@@ -200,7 +211,8 @@ def check_layer(R=2.5, G=6900.):
     report('elastic layer: excess over the upper bound',
            max(T * (1. / rigid + 1. / (PI / 2. * eps * R**4)) - 1. for eps, T in zip(stiffnesses, torques)), 1e-6)
     report('elastic layer: deficit to the lower bound',
-           max(PI**2 / 4. * R**8 / (8. / 15. * R**5 / G + PI / 2. * R**4 / eps) / T - 1. for eps, T in zip(stiffnesses, torques)), 1e-6)
+           max(PI**2 / 4. * R**8 / (8. / 15. * R**5 / G + PI / 2. * R**4 / eps) / T - 1.
+               for eps, T in zip(stiffnesses, torques)), 1e-6)
     report('elastic layer: fall with the stiffness', max(a / b - 1. for a, b in zip(torques, torques[1:])), 0.)
     report('elastic layer: stiff', relative(layer_torque(G, R, 1., 1e13), rigid), 2e-5)
     # An independent Galerkin solution: traction r (1 - r^2)^k, 28 terms, with exact Weber-Schafheitlin integrals. Scenes are
@@ -215,9 +227,10 @@ def check_mindlin(mu=0.3, G=6900., approach=0.01, Rc=20., E=18000. / 0.91):
     c = a (1 - Q/(mu P))^(1/3) that sticks; the displacement is 3 mu P / (16 a) compliance (1 - (c/a)^2)."""
     a = math.sqrt(Rc * approach)
     P = 4. / 3. * E * a * approach
-    report('Hertz: pressure over the area',
-           relative(2. * PI * integral(lambda phi: a * math.sin(phi) * hertz(a, 1., P)(0., a * math.cos(phi)) * a * math.cos(phi), 0., PI / 2.), P), 1e-12)
-    report('Hertz: largest pressure 2/pi E* sqrt(d/Rc)', relative(hertz(a, 1., P)(0., a), 2. / PI * E * math.sqrt(approach / Rc)), 1e-12)
+    pressure = hertz(a, 1., P)
+    force = integral(lambda phi: a * math.sin(phi) * pressure(0., a * math.cos(phi)) * a * math.cos(phi), 0., PI / 2.)
+    report('Hertz: pressure over the area', relative(2. * PI * force, P), 1e-12)
+    report('Hertz: largest pressure', relative(pressure(0., a), 2. / PI * E * math.sqrt(approach / Rc)), 1e-12)
     q, sums = hertz(a, mu, P), 0.
     for part in (0.2, 0.7, 1.):
         c = a * (1. - part)**(1. / 3.)

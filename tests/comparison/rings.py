@@ -74,7 +74,8 @@ class RateAndStateRings(Rings):
         positive = np.maximum(over, 0.)
         u = np.minimum(positive / (self.p * self.A), np.log1p(positive / (self.eta * self.V_0)))
         for _ in range(50):
-            step = (self.p * self.A * u + self.eta * self.V_0 * np.expm1(u) - positive) / (self.p * self.A + self.eta * self.V_0 * np.exp(u))
+            excess = self.p * self.A * u + self.eta * self.V_0 * np.expm1(u) - positive
+            step = excess / (self.p * self.A + self.eta * self.V_0 * np.exp(u))
             u -= step
             if np.all(np.abs(step) <= 1e-13 * np.abs(u)):
                 break
@@ -148,7 +149,8 @@ def check_stick_slip(debond, directory):
     coarse, fine = of_cycle[800], of_cycle[1600]
     report('torque before the slip, half the steps over all, from 2', coarse[0] / fine[0] - 2., 0.1)
     # the period is as fine as a step, 0.2 %
-    for name, deviation, limit in zip(('torque before the slip', 'torque after it', 'period'), 2. * fine - coarse, (5e-4, 1e-3, 6e-3)):
+    limits = {'torque before the slip': 5e-4, 'torque after it': 1e-3, 'period': 6e-3}
+    for (name, limit), deviation in zip(limits.items(), 2. * fine - coarse):
         report(f'{name}, extrapolated', deviation, limit)
 
 

@@ -75,7 +75,7 @@ def sentences_of(scene, at_most=2, characters=300):
     text = []
     for line in lines_of(scene):
         words = line[1:].strip()
-        if not line.startswith("#") or re.match(r"(expect|judge|method): ", words):
+        if not line.startswith("#") or re.match(r"(let|expect|(slow )?run [^ :]+|wrong|refused|failed):|--set ", words):
             break
         if re.match(r"#\s{3,}|#\s*[-*] ", line) and text or not words and text:
             break  # a table, a list or the next paragraph

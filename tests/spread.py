@@ -3,7 +3,7 @@
 the edge of its band.
 
 A configuration is a build, the kernels of OpenBLAS, and a number of threads. Kernels of another processor round in another
-way; those of an older one run everywhere. Numbers are those of `# expect:` and `# judge:` comments, with the band that
+way; those of an older one run everywhere. Numbers are those of `# expect:` and `# wrong:` comments, with the band that
 the comment states, those that compare.sh compares, with its tolerances, and deviations that programs report, with their
 limits. In the list, sorted by the margin:
 
@@ -38,7 +38,7 @@ def tests_of(build, chosen, left_out):
     listed = json.loads(subprocess.check_output(['ctest', '--test-dir', build, '--show-only=json-v1']))
     for test in listed['tests']:
         command = test.get('command', [])
-        if command and (re.search(r'check_scene|judge_method|compare\.sh', command[0])) and \
+        if re.search(r'check_scene|compare\.sh', ' '.join(command[:2])) and \
                 re.search(chosen, test['name']) and not (left_out and re.search(left_out, test['name'])):
             properties = {p['name']: p['value'] for p in test['properties']}
             yield test['name'], command, properties.get('WORKING_DIRECTORY', build)
@@ -46,7 +46,7 @@ def tests_of(build, chosen, left_out):
 
 def run(command, where, build, results, environment):
     """Runs a test that writes to its own directory below RESULTS; returns its exit code and that directory."""
-    directory = command[2 if command[0].endswith('compare.sh') else -1]
+    directory = command[2 if command[0].endswith('compare.sh') else 4]  # after check_scene.py, the program and the scene
     own = os.path.join(results, os.path.relpath(directory, build))
     shutil.rmtree(own, ignore_errors=True)
     os.makedirs(own)

@@ -1,16 +1,15 @@
 #!/usr/bin/env bash
-# Runs every scene of prm/stability with every method that its comments list, and prints the table of doc/evidence/stability.md; a line on
+# Runs every scene of prm/stability with every run that its comments list, and prints the table of doc/evidence/stability.md; a line on
 # the error output says so if an outcome is not the expected one. Some three minutes. Runs stay in output/stability/runs.
 #   doc/stability/stability.sh [--draw] [--publish] [SCENE ...]
 #     --draw    make the pictures output/stability/*.png and *.svg instead (some two minutes)
 #     --publish copy the pictures to doc/images
 #     SCENE     only these, for instance slip_direction
-# Before: cmake --build --preset release --target debond judge_method
+# Before: cmake --build --preset release --target debond
 set -euo pipefail
 export LC_ALL=C.UTF-8
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 debond=${DEBOND:-build/release/debond}
-judge=${JUDGE:-build/release/tests/stability/judge_method}
 results=output/stability
 pictures="slip_direction chatter penalty snap_back"
 draw=false publish=false scenes=()
@@ -22,9 +21,7 @@ for option in "$@"; do
     *) scenes+=("$option") ;;
   esac
 done
-for program in "$debond" $([[ $draw == true || $publish == true ]] || echo "$judge"); do
-  [[ -x $program ]] || { echo "stability.sh: there is no $program: build it first" >&2; exit 1; }
-done
+[[ -x $debond ]] || { echo "stability.sh: there is no $debond: build it first" >&2; exit 1; }
 mkdir -p $results
 
 # a run for a picture: the scene, the name of its results, and overrides
@@ -61,14 +58,14 @@ draw_pictures() {
 if [[ $draw == true ]]; then
   draw_pictures
 elif [[ $publish == false ]]; then
-  echo "| scene | method | outcome | judged | iterations | shortest step | energy defect | rows with warnings |"
+  echo "| scene | run | outcome | judged | iterations | shortest step | energy defect | rows with warnings |"
   echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
   for file in prm/stability/*.prm; do
     scene=$(basename "$file" .prm)
     [[ ${#scenes[@]} == 0 || " ${scenes[*]} " == *" $scene "* ]] || continue
-    for method in $(sed -n -E 's/^# (slow )?method: ([^ :]+):.*/\2/p' "$file"); do
-      "$judge" "$file" "$method" "$results/runs/$scene.$method" > $results/row.txt 2> /dev/null ||
-        echo "stability.sh: $scene.$method is not as expected" >&2
+    for run in $(sed -n -E 's/^# (slow )?run ([^ :]+):.*/\2/p' "$file"); do
+      tests/check_scene.py "$debond" "$file" "$results/runs/$scene.$run" "$run" > $results/row.txt 2> /dev/null ||
+        echo "stability.sh: $scene.$run is not as expected" >&2
       tail -n 1 $results/row.txt
     done
   done

@@ -76,8 +76,8 @@ namespace Debond
     tau       = axes * towed->direction;
     distance  = towed->distance;
     along_gap = Vector3d::Zero();
-    if (length > 0.)
-      along_gap = g_t / length;
+    if (length > 0.) // of a gap that is nothing but rounding a part is normal
+      along_gap = (g_t - normal.n.dot(g_t) * normal.n) / length;
   }
 
 

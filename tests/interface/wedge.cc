@@ -17,10 +17,19 @@
 #include <vector>
 
 #include "checks.h"
-#include "exact_half_space.h"
 
 using namespace Debond;
 using Eigen::Vector3d;
+
+/** Horizontal force per vertical force that pushes a rigid wedge up an incline.
+ *  Negative @p mu: the force at which it slides down. */
+double
+wedge_force_ratio(const double slope, const double mu)
+{
+  return (slope + mu) / (1. - mu * slope);
+}
+
+
 
 class Wedge
 {

@@ -210,57 +210,6 @@ namespace Debond
 
 
 
-  // "At initial contact the interacting point is the closest projection point"
-  // (paper, after Eq. 28).
-  //
-  // The bonding comes last, as with the bone as slave it asks for the partners.
-  void
-  ContactInterface::initialise(const InterfaceConfiguration &configuration)
-  {
-    tangent_is_gathered = false;
-    for (const Side side : both_sides)
-      accepted_positions[side] = configuration.side[side].positions;
-    accepted_frame  = configuration.side[Side::implant].frame;
-    accepted_centre = configuration.chuck->centre();
-    unprojected     = 0;
-    // From one point to the next: a search over the whole master asks all of
-    // its elements.
-    const SlavePoint *neighbour = nullptr;
-    for (SlavePoint &point : points)
-      {
-        if (neighbour != nullptr)
-          point.accepted.xi = neighbour->accepted.xi;
-        point.trial.normal_gap =
-          project_accepted(point, configuration, neighbour != nullptr).height;
-        if (!shares.empty())
-          shares[&point - points.data()].xi = point.accepted.xi;
-        if (point.accepted.has_partner)
-          neighbour = &point;
-      }
-    assign_bonding();
-    for (SlavePoint &point : points)
-      {
-        at_start.bonding_area += point.phi_0 * point.JxW;
-        if (!point.accepted.has_partner)
-          continue;
-        at_start.facing_area += point.JxW;
-        const double gap = point.trial.normal_gap;
-        // faces that touch have grown together; what overlaps has touched once
-        // it is in equilibrium
-        if (std::abs(gap) <= touch_tolerance)
-          {
-            point.accepted.joined     = true;
-            point.accepted.normal_gap = 0.;
-          }
-        if (point.phi_0 == 0. || gap > touch_tolerance)
-          continue;
-        ++at_start.n_bonded;
-        at_start.bonded_area += point.phi_0 * point.JxW;
-      }
-  }
-
-
-
   namespace
   {
     /** A step of the points to a configuration. */

@@ -476,123 +476,6 @@ namespace Debond
             judge_rotation(scene, entry, values, note);
         }
     }
-
-
-
-    // Entries that were set, and that nothing reads in this scene.
-    void
-    judge_entries(const Scene &scene, const Note &note)
-    {
-      const FrictionLaw &law       = *scene.interface.friction;
-      const bool         pulls     = scene.interface.joint()->pulls();
-      const bool         is_bonded = law.has_bond() || pulls;
-      const bool         is_crack  = scene.model == ModelKind::crack,
-                 of_angles = scene.model == ModelKind::prescribed_angles,
-                 is_auto   = scene.model == ModelKind::automatic,
-                 of_points = !is_crack && !of_angles, // their laws
-        has_cells          = of_points || !scene.bone.is_rigid(),
-                 has_steps =
-                   scene.model == ModelKind::finite_elements || is_auto,
-                 rubs    = !law.is_frictionless,
-                 by_slip = rubs && !is_crack &&
-                           scene.interface.law_choice.law != "mixed mode";
-      // Largest slip step = auto goes by the distances of a bond, also without
-      const bool wears = by_slip && (is_bonded || scene.load_steps.follow_path);
-      const struct
-      {
-        const char *beginning; ///< of the names
-        bool        is_read;
-        const char *reader;
-      } table[] = {
-        {"Load steps / Tolerance", scene.load_steps.adaptive, "Adaptive steps"},
-        {"Load steps / Largest slip step",
-         scene.load_steps.follow_path,
-         "Path following = slip"},
-        {"Load steps / Path ends at slip",
-         scene.load_steps.follow_path,
-         "Path following = slip"},
-        {"Closed form / ",
-         scene.model != ModelKind::finite_elements,
-         "closed forms"},
-        {"Closed form / Torsional", of_points, "Model = foundation"},
-        {"Closed form / Linear",
-         of_angles || is_auto,
-         "Model = prescribed angles"},
-        {"Closed form / Slip",
-         of_angles || is_auto,
-         "Model = prescribed angles"},
-        {"Closed form / Shear", is_crack || is_auto, "Model = crack"},
-        {"Closed form / Adhesion", is_crack || is_auto, "Model = crack"},
-        {"Auto / ", is_auto, "Model = auto"},
-        {"Calibration / ",
-         std::any_of(scene.changed_entries.begin(),
-                     scene.changed_entries.end(),
-                     [](const SceneEntry &e) { return e.name == "Task"; }),
-         "Task = calibrate"},
-        {"Bone / Cells", has_cells, "laws of points, and bodies that deform"},
-        {"Bone / Contact", has_cells, "laws of points, and bodies that deform"},
-        {"Bone / Lateral", has_cells, "laws of points, and bodies that deform"},
-        {"Bone / Size", has_cells, "laws of points, and bodies that deform"},
-        {"Bone / Young", !scene.bone.is_rigid(), "bodies that deform"},
-        {"Bone / Poisson", !scene.bone.is_rigid(), "bodies that deform"},
-        {"Bone / Layer", !scene.bone.is_rigid(), "bodies that deform"},
-        {"Bone / Voxel corner", !scene.bone.voxel_file.empty(), "a Voxel file"},
-        {"Implant / Poisson", !scene.implant.is_rigid(), "bodies that deform"},
-        {"Implant / Layer", !scene.implant.is_rigid(), "bodies that deform"},
-        {"Interface / Bonding / Resolution",
-         scene.interface.bonding.pattern != BondingPatternKind::homogeneous,
-         "other patterns"},
-        {"Bone / Rim grading",
-         scene.bone.cells_under_implant > 0,
-         "Cells under implant"},
-        {"Implant / Young", !scene.implant.is_rigid(), "bodies that deform"},
-        {"Interface / Friction starts at",
-         rubs && has_steps,
-         "laws with friction in finite elements"},
-        {"Interface / Tangential",
-         of_points && (rubs || pulls),
-         "laws of points that stick"},
-        {"Interface / Characteristic", wears, "bonds that slip wears"},
-        {"Interface / Transition", wears, "bonds that slip wears"},
-        {"Interface / Friction coefficient unbroken",
-         by_slip,
-         "bonds that slip wears"},
-        {"Expert / Slip", rubs && has_steps, "friction in finite elements"},
-        {"Expert / Friction update",
-         is_bonded || law.depends_on_rate,
-         "friction that changes"},
-        {"Interface / Bonding / ", is_bonded, "laws with a bond"},
-        {"Output / Observed bonding", is_bonded, "laws with a bond"}};
-      for (const SceneEntry &entry : scene.changed_entries)
-        {
-          // What an included file sets is for several scenes. Only what stands
-          // in a file has a line as its place.
-          if (entry.place.find(':') != std::string::npos &&
-              entry.place.rfind(scene.name + ":", 0) != 0)
-            continue;
-          const std::string name = entry.full_name();
-          const std::string text = name + " = " + shortened(entry.value) +
-                                   " has no effect in this scene: it is for ";
-          std::string reader; // the first that is found
-          for (const auto &row : table)
-            if (reader.empty() && !row.is_read &&
-                name.rfind(row.beginning, 0) == 0)
-              reader = row.reader;
-          const InterfaceParameters &interface = scene.interface;
-          const auto joints = interface.law_choice.laws_with(name),
-                     laws   = interface.friction_choice.laws_with(name);
-          const auto is_of  = [](const std::vector<std::string> &names,
-                                const std::string              &chosen) {
-            return std::find(names.begin(), names.end(), chosen) != names.end();
-          };
-          if (!joints.empty() && !is_of(joints, interface.law_choice.law))
-            reader = "Law = " + joints.front();
-          if (!laws.empty() &&
-              (!is_of(laws, interface.friction_choice.law) || !rubs))
-            reader = "another Friction law";
-          note(!reader.empty(), name, text + reader);
-        }
-    }
   } // namespace
 
 
@@ -611,7 +494,8 @@ namespace Debond
     judge_interface(*this, note);
     judge_steps(*this, note);
     judge_chuck(*this, note);
-    judge_entries(*this, note);
+    for (const Warning &unread : unread_entries(*this))
+      found.push_back(unread);
     return found;
   }
 } // namespace Debond

@@ -196,5 +196,9 @@ namespace Debond
    *  those of @p scene, or the defaults without one. */
   void
   print_parameters(std::ostream &out, const Scene *scene = nullptr);
+
+  /** Warnings of entries that were set, and that nothing reads in the scene. */
+  std::vector<Warning>
+  unread_entries(const Scene &scene);
 } // namespace Debond
 #endif

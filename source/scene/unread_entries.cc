@@ -1,0 +1,184 @@
+#include <debond/scene/scene.h>
+#include <debond/support/number_text.h>
+
+#include <algorithm>
+
+// Entries that were set, and that nothing reads in this scene.
+namespace Debond
+{
+  namespace
+  {
+    /** Entries by the beginnings of their names, and what reads them. */
+    struct Reader
+    {
+      bool                     is_there; ///< in the scene
+      std::string              name;
+      std::vector<std::string> beginnings;
+
+      bool
+      reads(const std::string &entry) const
+      {
+        return std::any_of(beginnings.begin(),
+                           beginnings.end(),
+                           [&](const std::string &beginning) {
+                             return entry.rfind(beginning, 0) == 0;
+                           });
+      }
+    };
+
+
+
+    std::vector<Reader>
+    readers_of_bodies(const Scene &scene, const bool laws_of_points)
+    {
+      const BodyParameters &bone = scene.bone, &implant = scene.implant;
+      return {
+        {laws_of_points || !bone.is_rigid(),
+         "laws of points, and bodies that deform",
+         {"Bone / Cells", "Bone / Contact", "Bone / Lateral", "Bone / Size"}},
+        {!bone.is_rigid(),
+         "bodies that deform",
+         {"Bone / Young", "Bone / Poisson", "Bone / Layer"}},
+        {!implant.is_rigid(),
+         "bodies that deform",
+         {"Implant / Young", "Implant / Poisson", "Implant / Layer"}},
+        {!bone.voxel_file.empty(), "a Voxel file", {"Bone / Voxel corner"}},
+        {bone.cells_under_implant > 0,
+         "Cells under implant",
+         {"Bone / Rim grading"}}};
+    }
+
+
+
+    std::vector<Reader>
+    readers_of_model(const Scene &scene)
+    {
+      const ModelKind model    = scene.model;
+      const bool      is_crack = model == ModelKind::crack,
+                 of_angles     = model == ModelKind::prescribed_angles,
+                 is_auto       = model == ModelKind::automatic,
+                 of_elements   = model == ModelKind::finite_elements,
+                 follows       = scene.load_steps.follow_path;
+      const auto &changed      = scene.changed_entries;
+      return {{scene.load_steps.adaptive,
+               "Adaptive steps",
+               {"Load steps / Tolerance"}},
+              {follows,
+               "Path following = slip",
+               {"Load steps / Largest slip", "Load steps / Path ends"}},
+              {!of_elements, "closed forms", {"Closed form / "}},
+              {!is_crack && !of_angles,
+               "Model = foundation",
+               {"Closed form / Torsional"}},
+              {of_angles || is_auto,
+               "Model = prescribed angles",
+               {"Closed form / Linear", "Closed form / Slip"}},
+              {is_crack || is_auto,
+               "Model = crack",
+               {"Closed form / Shear", "Closed form / Adhesion"}},
+              {is_auto, "Model = auto", {"Auto / "}},
+              {std::any_of(changed.begin(),
+                           changed.end(),
+                           [](const SceneEntry &e) {
+                             return e.name == "Task";
+                           }),
+               "Task = calibrate",
+               {"Calibration / "}}};
+    }
+
+
+
+    std::vector<Reader>
+    readers_of_interface(const Scene &scene, const bool laws_of_points)
+    {
+      const InterfaceParameters &interface = scene.interface;
+      const FrictionLaw         &law       = *interface.friction;
+      const bool                 pulls     = interface.joint()->pulls();
+      const bool                 is_bonded = law.has_bond() || pulls,
+                 rubs                      = !law.is_frictionless,
+                 has_steps = scene.model == ModelKind::finite_elements ||
+                             scene.model == ModelKind::automatic,
+                 by_slip = rubs && scene.model != ModelKind::crack &&
+                           interface.law_choice.law != "mixed mode",
+                 // Largest slip step = auto goes by them, also without a bond
+        wears = by_slip && (is_bonded || scene.load_steps.follow_path);
+      return {{interface.bonding.pattern != BondingPatternKind::homogeneous,
+               "other patterns",
+               {"Interface / Bonding / Resolution"}},
+              {rubs && has_steps,
+               "laws with friction in finite elements",
+               {"Interface / Friction starts at"}},
+              {laws_of_points && (rubs || pulls),
+               "laws of points that stick",
+               {"Interface / Tangential"}},
+              {wears,
+               "bonds that slip wears",
+               {"Interface / Characteristic", "Interface / Transition"}},
+              {by_slip,
+               "bonds that slip wears",
+               {"Interface / Friction coefficient unbroken"}},
+              {rubs && has_steps,
+               "friction in finite elements",
+               {"Expert / Slip"}},
+              {is_bonded || law.depends_on_rate,
+               "friction that changes",
+               {"Expert / Friction update"}},
+              {is_bonded,
+               "laws with a bond",
+               {"Interface / Bonding / ", "Output / Observed bonding"}}};
+    }
+
+
+
+    /** What reads parameters of a law that is not chosen; else empty. */
+    std::string
+    other_law(const InterfaceParameters &interface, const std::string &entry)
+    {
+      const auto is_of = [](const std::vector<std::string> &names,
+                            const std::string              &chosen) {
+        return std::find(names.begin(), names.end(), chosen) != names.end();
+      };
+      const auto joints = interface.law_choice.laws_with(entry),
+                 laws   = interface.friction_choice.laws_with(entry);
+      if (!laws.empty() && (!is_of(laws, interface.friction_choice.law) ||
+                            interface.friction->is_frictionless))
+        return "another Friction law";
+      return joints.empty() || is_of(joints, interface.law_choice.law) ?
+               "" :
+               "Law = " + joints.front();
+    }
+  } // namespace
+
+
+
+  std::vector<Warning>
+  unread_entries(const Scene &scene)
+  {
+    const bool laws_of_points = scene.model != ModelKind::crack &&
+                                scene.model != ModelKind::prescribed_angles;
+    std::vector<Reader> readers = readers_of_model(scene);
+    for (const auto &more : {readers_of_bodies(scene, laws_of_points),
+                             readers_of_interface(scene, laws_of_points)})
+      readers.insert(readers.end(), more.begin(), more.end());
+    std::vector<Warning> found;
+    for (const SceneEntry &entry : scene.changed_entries)
+      {
+        // What an included file sets is for several scenes. Only what stands in
+        // a file has a line as its place.
+        if (entry.place.find(':') != std::string::npos &&
+            entry.place.rfind(scene.name + ":", 0) != 0)
+          continue;
+        const std::string name   = entry.full_name();
+        std::string       reader = other_law(scene.interface, name);
+        for (const Reader &one : readers)
+          if (reader.empty() && !one.is_there && one.reads(name))
+            reader = one.name;
+        if (!reader.empty())
+          found.push_back({name,
+                           name + " = " + shortened(entry.value) +
+                             " has no effect in this scene: it is for " +
+                             reader});
+      }
+    return found;
+  }
+} // namespace Debond

@@ -1,4 +1,5 @@
 #include <debond/bulk/bulk_space.h>
+#include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/shapes/faces_of_mesh.h>
 #include <debond/support/number_text.h>

@@ -203,6 +203,8 @@ class Scene:
                 match = COMMENT.match(line)
                 if match:
                     self.read(*match.groups())
+                elif re.match(r'\s*#\s*(let|expect|wrong|refused|failed|slow run|run)\b[^.]*:', line) or re.match(r'\s*#\s*expect\b', line):
+                    raise Problem(f'this comment is none that is read: {line.strip()}')
                 elif self.runs and re.match(r'\s*#\s+--set ', line):  # the run goes on
                     self.runs[-1].options += shlex.split(line.strip(' #\n'))
         if not self.runs:

@@ -179,7 +179,11 @@ namespace Debond
   EntryTable::has(const SceneEntry &entry) const
   {
     const Row *const row = row_of(entry.full_name());
-    return row != nullptr && row->entry.value == entry.value;
+    if (row == nullptr)
+      return false;
+    const auto own = read_number(row->entry.value); // 0.40 is 0.4
+    return own ? own == read_number(entry.value) :
+                 row->entry.value == entry.value;
   }
 
 

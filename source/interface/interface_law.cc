@@ -81,10 +81,10 @@ namespace Debond
 
 
   // A point cannot slide against what pulls it. Where Newton's method looks
-  // there, at negative distances, L goes on along its tangent, but never rises:
-  // the distance alone would have a second solution there where friction rises
-  // with the speed. dL/dp goes with L, as for laws whose coefficient does not
-  // depend on the pressure.
+  // there, at negative distances, L goes on along its tangent (without a part
+  // of the bond), but never rises: the distance alone would have a second
+  // solution there where friction rises with the speed. dL/dp goes with L, as
+  // for laws whose coefficient does not depend on the pressure.
   void
   InterfaceLaw::rub(const PointStart  &start,
                     const double       distance,
@@ -231,7 +231,8 @@ namespace Debond
                        "the law " + law +
                          " needs a friction law whose bond breaks with the "
                          "slip: modified coulomb, coulomb, frictionless or "
-                         "table, with Friction update = implicit");
+                         "a table that begins with a bond, with Friction "
+                         "update = implicit");
   }
 
 

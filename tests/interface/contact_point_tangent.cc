@@ -336,17 +336,19 @@ check(const std::string &name, const ContactPointLaw &law, const bool rubs)
   for (unsigned int sample = 0; sample < 150; ++sample)
     {
       Question question;
-      question.law               = law;
-      question.surface           = sample % 2;
-      question.net               = nets[question.surface];
-      question.sign              = sample % 3 ? 1. : -1.;
-      question.phi_0             = sample % 5 ? 0.9 : 0.4;
-      question.start.joined      = sample % 4 != 3;
-      question.start.has_partner = true;
-      question.start.status      = PointStatus::stick;
-      question.start.normal_gap  = -0.01;
-      question.start.internal    = law.joint->friction->initial_variables;
-      question.mode.duration     = 0.5;
+      question.law = law;
+      // softer and stiffer than along the normal
+      question.law.tangential_penalty = sample % 4 < 2 ? 250. : 900.;
+      question.surface                = sample % 2;
+      question.net                    = nets[question.surface];
+      question.sign                   = sample % 3 ? 1. : -1.;
+      question.phi_0                  = sample % 5 ? 0.9 : 0.4;
+      question.start.joined           = sample % 4 != 3;
+      question.start.has_partner      = true;
+      question.start.status           = PointStatus::stick;
+      question.start.normal_gap       = -0.01;
+      question.start.internal         = law.joint->friction->initial_variables;
+      question.mode.duration          = 0.5;
       question.mode.turn = std::array<double, 3>{{0., 0.6, -1.}}[sample % 3];
       question.mode.frictionless = sample % 10 == 0;
       question.mode.stick_first  = sample % 15 == 1;

@@ -16,7 +16,7 @@ using namespace Debond;
 int
 main()
 {
-  const double K = 2000., G_I = 0.05, G_II = 0.1, exponent = 1.3;
+  const double G_I = 0.05, G_II = 0.1, exponent = 1.3;
   const auto   law =
     interface_law_of_text("set Law = mixed mode\nsubsection Mixed mode\n"
                           "set Criterion = power law\nset Exponent = 1.3\n"

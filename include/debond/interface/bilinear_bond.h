@@ -21,10 +21,11 @@ namespace Debond
   /** Bond of that share, with its parameters: the bilinear law of Camanho and
    *  Davila (2002),
    *
-   *    t = phi_0 (1 - omega) K delta,   delta = (<n>, delta_t).
+   *    t = phi_0 (1 - omega) K delta,   delta = (max(n, 0), delta_t).
    *
-   *  omega begins where (<t_n>/N)^2 + (t_t/T)^2 = 1 and is 1 where the work is
-   *  that of the criterion, G(B), B = delta_t^2/delta^2. It never falls. */
+   *  omega begins where (max(t_n, 0)/N)^2 + (t_t/T)^2 = 1 and is 1 where the
+   * work is that of the criterion, G(B), B = delta_t^2/delta^2. It never falls.
+   */
   struct BilinearBond
   {
     double N = 5, T = 5;           ///< strengths [MPa]

@@ -19,7 +19,7 @@ namespace Debond
    *  magnitude of the tangential traction [MPa], accumulated sliding distance
    *  g_s [mm], bonding state phi, friction coefficient mu, PointStatus, area
    *  that the point stands for [mm^2], the parts of the bond that opening and
-   *  slip have left (BondLeft), PointTraction::mode_deg() [deg]. */
+   *  slip have left (InterfaceLaw::left_by_each()), PointTraction::mode_deg() [deg]. */
   using InterfacePoint = std::array<double, 13>;
 
   /** Their names. */

@@ -19,6 +19,7 @@ import subprocess
 import sys
 
 COMMENT = re.compile(r'\s*#\s*(let|expect|wrong|refused|failed|slow run|run)(?:\s+([^\s:]+))?:\s*(.*?)\s*$')
+UNREAD = re.compile(r'\s*#\s*((let|wrong|refused|failed|slow run|run)\b[^.]*:|expect\b)')  # meant to be one, with a slip of the pen
 QUANTITY = re.compile(r'(?P<name>\w+)(?: of (?P<kind>variant|run) (?P<which>\S+?))?'
                       r'(?: (?:(?P<measure>max|last)|(?P<how>at|ripple after) (?P<where>\w+)(?: (?P<place>\S+))?))?')
 EXPECTATION = re.compile(r'(?:in (?P<all>rows|curve|levels|variants)(?: where (?P<where>.+?))?: )?'
@@ -203,7 +204,7 @@ class Scene:
                 match = COMMENT.match(line)
                 if match:
                     self.read(*match.groups())
-                elif re.match(r'\s*#\s*(let|expect|wrong|refused|failed|slow run|run)\b[^.]*:', line) or re.match(r'\s*#\s*expect\b', line):
+                elif UNREAD.match(line):
                     raise Problem(f'this comment is none that is read: {line.strip()}')
                 elif self.runs and re.match(r'\s*#\s+--set ', line):  # the run goes on
                     self.runs[-1].options += shlex.split(line.strip(' #\n'))

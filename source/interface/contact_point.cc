@@ -3,8 +3,6 @@
 
 #include <Eigen/Dense>
 
-#include <cmath>
-
 
 namespace Debond
 {

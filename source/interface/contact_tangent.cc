@@ -68,7 +68,7 @@ namespace Debond
     }
 
     PointMotion::Vectors<3>
-    padded(const Matrix<double, 9, 1> &forces)
+    as_vectors(const Matrix<double, 9, 1> &forces)
     {
       PointMotion::Vectors<3> result = PointMotion::Vectors<3>::Zero();
       result.topRows<3>()            = forces.reshaped(3, 3);
@@ -102,7 +102,7 @@ namespace Debond
         motion.scatter(f, sums);
         if (point.trial.state.status != PointStatus::open)
           PointMotion(point, slave)
-            .scatter(padded(forces_by_damage(point) * share.ddamage.dot(w)),
+            .scatter(as_vectors(forces_by_damage(point) * share.ddamage.dot(w)),
                      sums);
       }
   }
@@ -119,14 +119,13 @@ namespace Debond
                                   Eigen::VectorXd              &result) const
   {
     gather_tangent();
-    const PaddedNets moved =
-      Debond::padded(nodal_motion(direction, configuration));
+    const PaddedNets     moved = padded(nodal_motion(direction, configuration));
     Matrix<double, 6, 1> chuck = Matrix<double, 6, 1>::Zero();
     for (const auto &[component, number] : configuration.chuck_unknowns)
       chuck[component] = direction[number];
     const auto sums =
       sum_in_chunks(n_chunks,
-                    Debond::padded(zero_sums(configuration)),
+                    padded(zero_sums(configuration)),
                     [&](const unsigned int chunk, PaddedNets &forces) {
                       for (const PointTangent &point : tangent[chunk])
                         point.add_product(moved, chuck, forces);
@@ -222,9 +221,9 @@ namespace Debond
   ContactInterface::path_length(
     const InterfaceConfiguration &configuration) const
   {
-    PathLength result;
-    PaddedNets gradient = Debond::padded(zero_sums(configuration));
-    double     area     = 0.;
+    PathLength                result;
+    PaddedNets                gradient  = padded(zero_sums(configuration));
+    double                    area      = 0.;
     const BilinearBond *const by_damage = law.joint->cohesion.get();
     const double length = by_damage ? by_damage->length_of_damage() : 0.;
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -240,7 +239,8 @@ namespace Debond
                          trial.state.slip + law.joint->opened(trial.state));
         if (!shares.empty() && shares[q].holds)
           PointMotion(point, shares[q].basis, slave)
-            .scatter(padded(point.JxW * length * shares[q].ddamage.transpose()),
+            .scatter(as_vectors(point.JxW * length *
+                                shares[q].ddamage.transpose()),
                      gradient);
         if (by_damage || trial.state.status == PointStatus::open ||
             trial.dpath.isZero(0.))

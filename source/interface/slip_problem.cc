@@ -1,7 +1,6 @@
 #include <debond/interface/slip_problem.h>
 
 #include <cmath>
-#include <limits>
 
 namespace Debond
 {

@@ -19,7 +19,6 @@
 #include <map>
 #include <optional>
 #include <regex>
-#include <sstream>
 
 namespace Debond
 {

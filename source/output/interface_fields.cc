@@ -1,7 +1,6 @@
 #include <debond/bulk/body.h>
 #include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
-#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_interface.h>
 #include <debond/output/drawn_patches.h>
 #include <debond/output/field_output.h>
@@ -11,9 +10,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <sstream>
-#include <tuple>
-#include <utility>
 
 namespace Debond
 {

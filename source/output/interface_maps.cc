@@ -7,7 +7,6 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -157,7 +156,7 @@ namespace Debond
   {
     constexpr unsigned int     n_across = 48;
     const BodyParameters      &implant  = scene.implant;
-    const auto                 box  = implant.geometry().box_of_face();
+    const auto                 box      = implant.geometry().box_of_face();
     const Eigen::Vector2d      size = box[1] - box[0], d = size / n_across;
     const dealii::RTree<Entry> tree = tree_of(points);
     const unsigned int         n =

@@ -1,5 +1,6 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/output/profile_output.h>
+#include <debond/shapes/body_parameters.h>
 #include <debond/shapes/body_geometry.h>
 
 #include <deal.II/base/point.h>

@@ -1,7 +1,5 @@
-#include <debond/input/allowed_values.h>
 #include <debond/input/csv_table.h>
 #include <debond/output/torque_curve.h>
-#include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 
 #include <deal.II/base/numbers.h>
@@ -10,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Debond
 {

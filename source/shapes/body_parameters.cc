@@ -5,9 +5,6 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <regex>
 #include <utility>
 

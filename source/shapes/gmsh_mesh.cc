@@ -7,7 +7,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <locale>
 #include <mutex>

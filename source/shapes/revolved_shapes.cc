@@ -4,7 +4,6 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Debond

@@ -30,9 +30,8 @@ show(const std::vector<std::string> &overrides)
 int
 main()
 {
-  const std::string push  = "Chuck/Press/",
-                    twist = "Chuck/Rotation z/Value=",
-                    law   = "Interface/Friction ";
+  const std::string push = "Chuck/Press/", twist = "Chuck/Rotation z/Value=",
+                    law = "Interface/Friction ";
   show({"Title=nothing wrong"});
 
   show({"Bone/Young modulus=18"});
@@ -67,6 +66,9 @@ main()
 
   show({law + "coefficient broken=0.7"});
   show({law + "coefficient broken=0.7", law + "law=coulomb"});
+  // the default in other digits has not been changed
+  show({law + "coefficient broken=0.40", law + "law=coulomb"});
+  show({"Closed form/Linear limit angle=0.130"});
   show({"Interface/Characteristic slip distance=22"});
   show({"Interface/Characteristic slip distance=22e-6"});
   show({"Interface/Characteristic slip distance=22e-6", law + "law=coulomb"});

@@ -10,7 +10,6 @@
 #include <debond/system/whole_solver.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace dealii

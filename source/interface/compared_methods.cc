@@ -23,9 +23,9 @@ namespace Debond
   void
   SlipEquations::find_direction()
   {
-    is_previous_gap = law.slip_direction == SlipDirection::previous_gap &&
-                      !friction.old_gap.isZero(0.);
-    const Vector3d &pull = is_previous_gap ? friction.old_gap : trial_gap;
+    is_previous_gap = point.law.slip_direction == SlipDirection::previous_gap &&
+                      !point.old_gap.isZero(0.);
+    const Vector3d &pull = is_previous_gap ? point.old_gap : trial_gap;
     pull_along_n         = normal.n.dot(pull);
     const Vector3d u   = pull - pull_along_n * normal.n; // in the tangent plane
     pull_along_surface = u.norm();
@@ -47,7 +47,7 @@ namespace Debond
   //
   // This length has a derivative along its own direction; where slip only just
   // begins it has none yet, but the limit tau. It counts as negative against
-  // what pulls the point (PointFriction::limit()).
+  // what pulls the point as the resistance of its speed does.
   void
   SlipEquations::find_distance()
   {

@@ -331,10 +331,14 @@ namespace Debond
                             {accepted_frame, accepted_centre},
                             configuration};
     const auto         update = [&](const unsigned int q, NodalSums &sums) {
-      SlavePoint         &point  = points[q];
-      ContactPointResult &result = point.trial;
+      SlavePoint         &point   = points[q];
+      ContactPointResult &result  = point.trial;
+      ContactPointMode    of_rest = mode; // the share that rubs
       if (!shares.empty())
-        hold(q, configuration, mode, sums);
+        {
+          hold(q, configuration, mode, sums);
+          of_rest.damage = shares[q].damage;
+        }
       // Most points beyond the edge stay there: they need no projection until
       // the surfaces may have come close enough. With the bone as slave that is
       // most of its face in the paper's test.
@@ -349,7 +353,7 @@ namespace Debond
       step.update(point,
                   start,
                   interpolate(point.basis, accepted_positions[slave]),
-                  shares.empty() ? mode : shares[q].with_damage(mode),
+                  of_rest,
                   result);
       if (result.state.status == PointStatus::open)
         return;

@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 
-
 namespace Debond
 {
   // What happens at one quadrature point of the slave in one step: the
@@ -24,9 +23,11 @@ namespace Debond
   void
   leave_open(const ContactPointLaw   &law,
              const ContactPointState &old_state,
-             ContactPointResult      &result)
+             ContactPointResult      &result,
+             const double             g_n)
   {
     ContactPointAnswer open;
+    open.normal_gap   = g_n;
     open.state        = old_state;
     open.state.status = PointStatus::open;
     open.state.gap.setZero();
@@ -105,214 +106,182 @@ namespace Debond
 
   namespace
   {
-    // One point in one step: what is given, and the three ends that it may come
-    // to. `start' is the state of the beginning, with an xi_hat^n.
-    //
-    // The references are what update_contact_point() was called with; of them
-    // only `result' is written.
-    struct PointStep
+    // What the step starts from. The master has taken xi_hat^n with it, and the
+    // parts of the old gap along a_1 and a_2; where slip is integrated over the
+    // step the string was L_n / eps_t long.
+    void
+    bring_along(const MasterNormal &old, PointStep &point)
     {
-      const ContactPointLaw   &law;
-      const ContactPointState &start;
-      const Vector3d          &x;
-      const MasterSurface     &master;
-      const ContactPointMode  &mode;
-      ContactPointResult      &result;
+      const ContactPointState &start = point.before;
+      point.y_old                    = old.geometry.y;
+      point.old_gap =
+        start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
+      PointStart before = point.start;
+      before.damage     = start.damage;
+      point.old_limit =
+        point.joint().respond(before, start.normal_gap, 0.).limit /
+        point.law.tangential_penalty;
+      point.arc = Arc(point.mode.turn);
+    }
 
-      // What the law is to know of the point. In the frictionless part of a
-      // load history (`Friction starts at') nothing rubs and g_s does not grow.
-      PointStart
-      begin(const double phi_0) const
-      {
-        PointStart point =
-          law.joint->begin(start, phi_0, mode.duration, mode.frictionless);
-        if (law.joint->cohesion)
-          point.damage = mode.damage;
-        return point;
-      }
 
-      PointFriction
-      friction(const double phi_0) const
-      {
-        return {*law.joint, begin(phi_0), viscous_stiffness(law, mode)};
-      }
 
-      // What the step starts from. The master has taken the parts of the old
-      // gap along a_1 and a_2 with it; where slip is integrated over the step
-      // the string was L_n / eps_t long.
-      void
-      bring_along(const MasterNormal &old, PointFriction &friction) const
-      {
-        friction.old_gap =
-          start.gap[0] * old.geometry.a1 + start.gap[1] * old.geometry.a2;
-        PointStart before = friction.start;
-        before.damage     = start.damage;
-        friction.old_limit =
-          law.joint->respond(before, start.normal_gap, 0.).limit /
-          law.tangential_penalty;
-        friction.arc = Arc(mode.turn);
-      }
+    // Contact is where g_n < 0, or less than the reach of a law with strength
+    // in tension. Gaps that are no more than rounding are no contact, so that
+    // rounding cannot wear a bond; but where all points stick they are one,
+    // so that touching bodies under a loaded chuck have a tangent.
+    //
+    // A tolerance of rounding: 1e-12 of the implant's radius.
+    bool
+    is_closed(const PointStep &point, const double g_n, const double distance)
+    {
+      const ContactPointMode &mode = point.mode;
+      const double reach           = point.joint().reach(point.start, distance);
+      return mode.stick_first ? g_n < reach + mode.touch_tolerance :
+                                g_n < reach - mode.touch_tolerance;
+    }
 
-      // Contact is where g_n < 0, or less than the reach of a law with strength
-      // in tension. Gaps that are no more than rounding are no contact, so that
-      // rounding cannot wear a bond; but where all points stick they are one,
-      // so that touching bodies under a loaded chuck have a tangent.
-      //
-      // A tolerance of rounding: 1e-12 of the implant's radius.
-      bool
-      is_closed(const PointStart &start,
-                const double      g_n,
-                const double      distance) const
-      {
-        const double reach = law.joint->reach(start, distance);
-        return mode.stick_first ? g_n < reach + mode.touch_tolerance :
-                                  g_n < reach - mode.touch_tolerance;
-      }
 
-      // Nothing is carried; the gap g_n [mm] is kept for output.
-      void
-      open(const double g_n)
-      {
-        leave_open(law, start, result);
-        result.normal_gap = g_n;
-      }
 
-      // The trial state: xi_hat stays at xi_hat^n, and all of the tangential
-      // gap of Eq. (27) is elastic. Eq. (28) has one penalty for both parts of
-      // the gap; here each has its own, t = -p n + eps_t g_t.
-      //
-      // This is elastic and can be undone: within a step, and from step to
-      // step, a point that sticks returns to where it was when the load does.
-      // g_s stays.
-      void
-      stick(const PointFriction     &friction,
-            const InterfaceResponse &response,
-            const Vector3d          &gap,
-            const MasterNormal      &normal)
-      {
-        // g_n and p: the spring eps_n pushes while g_n < 0; a law with strength
-        // in tension pulls beyond.
-        const Vector3d &n     = normal.n;
-        const double    g_n   = n.dot(gap);
-        const double    eps_n = -response.pressure_by_gap,
-                     eps_t    = law.tangential_penalty;
-        // xi_hat = xi_hat^n and g_s = g_s^n. The spring eps_t holds the point
-        // with what is left of the gap in the tangent plane, (1 - n n^T) g,
-        // which need not be zero: this gap is the elastic deformation of the
-        // interface, not an error of the penalty.
-        result.state        = start;
-        result.state.status = PointStatus::stick;
-        static_cast<PointHistory &>(result.state) =
-          law.joint->advance(friction.start, g_n, 0.);
-        result.normal_gap          = g_n;
-        result.pressure            = response.pressure;
-        result.viscous_pressure    = response.viscous_pressure;
-        result.state.gap           = normal.parts(gap);
-        result.softening           = 0.;
-        result.tangential_traction = eps_t * (gap - g_n * n);
-        result.traction = -response.pressure * n + result.tangential_traction;
-        // the potential that Eq. (28) comes from
-        result.energy = response.energy +
-                        0.5 * result.tangential_traction.squaredNorm() / eps_t;
-        result.slip_increment = result.viscous_traction = Vector3d::Zero();
+    // The trial state: xi_hat stays at xi_hat^n, and all of the tangential
+    // gap of Eq. (27) is elastic. Eq. (28) has one penalty for both parts of
+    // the gap; here each has its own, t = -p n + eps_t g_t.
+    //
+    // This is elastic and can be undone: within a step, and from step to
+    // step, a point that sticks returns to where it was when the load does.
+    // g_s stays.
+    void
+    stick(const PointStep         &point,
+          const InterfaceResponse &response,
+          const Vector3d          &gap,
+          const MasterNormal      &normal,
+          ContactPointResult      &result)
+    {
+      // g_n and p: the spring eps_n pushes while g_n < 0; a law with strength
+      // in tension pulls beyond.
+      const Vector3d &n     = normal.n;
+      const double    g_n   = n.dot(gap);
+      const double    eps_n = -response.pressure_by_gap,
+                   eps_t    = point.law.tangential_penalty;
+      // xi_hat = xi_hat^n and g_s = g_s^n. The spring eps_t holds the point
+      // with what is left of the gap in the tangent plane, (1 - n n^T) g,
+      // which need not be zero: this gap is the elastic deformation of the
+      // interface, not an error of the penalty.
+      const ContactPointState &start = point.before;
+      result.state                   = start;
+      result.state.status            = PointStatus::stick;
+      static_cast<PointHistory &>(result.state) =
+        point.joint().advance(point.start, g_n, 0.);
+      result.normal_gap          = g_n;
+      result.pressure            = response.pressure;
+      result.viscous_pressure    = response.viscous_pressure;
+      result.state.gap           = normal.parts(gap);
+      result.softening           = 0.;
+      result.tangential_traction = eps_t * (gap - g_n * n);
+      result.traction = -response.pressure * n + result.tangential_traction;
+      // the potential that Eq. (28) comes from
+      result.energy = response.energy +
+                      0.5 * result.tangential_traction.squaredNorm() / eps_t;
+      result.slip_increment = result.viscous_traction = Vector3d::Zero();
 
-        // The tangent follows from g = x - y and n(a_1, a_2) alone, since
-        // xi_hat does not move:
-        //   dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t g_n) dn.
-        //   dg = dx - dy,   dg_n = n . dg + g . dn.
-        // With the penalty law and eps_n = eps_t all but the first term cancel,
-        // and dt = eps dg is Eq. (28) differentiated. Otherwise the turning of
-        // the normal has a part.
-        result.dxi.setZero();
-        const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
-        result.dt << eps_t * Matrix3d::Identity() +
-                       (eps_n - eps_t) * n * n.transpose(),
-          (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
-            (response.pressure + eps_t * g_n) * dn,
-          Eigen::Matrix<double, 3, W::size - W::trial_gap>::Zero();
-        result.by_damage = {};
-        result.dpath.setZero();
-        if (law.joint->opened(result.state) > law.joint->opened(start))
-          {
-            result.dpath.segment<3>(W::gap) = n.transpose();
-            result.dpath.segment<6>(W::a1)  = gap.transpose() * dn;
-          }
-      }
+      // The tangent follows from g = x - y and n(a_1, a_2) alone, since
+      // xi_hat does not move:
+      //   dt = eps_t dg + (eps_n - eps_t) n dg_n - (p + eps_t g_n) dn.
+      //   dg = dx - dy,   dg_n = n . dg + g . dn.
+      // With the penalty law and eps_n = eps_t all but the first term cancel,
+      // and dt = eps dg is Eq. (28) differentiated. Otherwise the turning of
+      // the normal has a part.
+      result.dxi.setZero();
+      const Eigen::Matrix<double, 3, 6> dn = normal.derivative();
+      result.dt << eps_t * Matrix3d::Identity() +
+                     (eps_n - eps_t) * n * n.transpose(),
+        (eps_n - eps_t) * (n * (gap.transpose() * dn)) -
+          (response.pressure + eps_t * g_n) * dn,
+        Eigen::Matrix<double, 3, W::size - W::trial_gap>::Zero();
+      result.by_damage = {};
+      result.dpath.setZero();
+      if (point.joint().opened(result.state) > point.joint().opened(start))
+        {
+          result.dpath.segment<3>(W::gap) = n.transpose();
+          result.dpath.segment<6>(W::a1)  = gap.transpose() * dn;
+        }
+    }
 
-      // The point slides, or opens: with p = 0 the same equations project it,
-      // and the sign of the gap found there decides. Newton's method starts
-      // where the gap at xi_hat^n is as long as its limit there [MPa]; if that
-      // fails, from the projection of the point, unless it has left the master.
-      //
-      // Whether it opens cannot be told from the gap at xi_hat^n: on a curved
-      // or tilted master a point may lift off at the old place and touch at the
-      // new one, or touch at the old place only.
-      void
-      slide_or_open(const PointFriction &friction,
-                    const MasterNormal  &old,
-                    const Vector3d      &tangential_gap,
-                    const double         limit)
-      {
-        // y(xi_hat^n) moves with the master too, and the slip y(xi_hat) -
-        // y(xi_hat^n) with both: its basis is kept for the tangent.
-        result.old_basis = result.basis;
-        SlipProblem  problem(law, friction, x, old.geometry.y, master);
-        const double elastic = limit / law.tangential_penalty,
-                     length  = tangential_gap.norm();
-        const double slip    = length > 0. ? 1. - elastic / length : 0.;
-        SlipOutcome  outcome =
-          problem.solve(master.surface->moved(start.xi,
-                                              slip * old.parts(tangential_gap)),
-                        result);
-        // The projection is near the solution wherever the tangential gap is
-        // small, however far xi_hat^n is, and starting there costs one more
-        // search. A point whose projection is beyond the edge has left the
-        // master, and opens; a projection that does not converge leaves the
-        // failure as it is.
-        if (outcome == SlipOutcome::not_found)
-          {
-            const Projection projection = project(master, x, &start.xi);
-            if (projection.converged)
-              outcome = projection.faces ?
-                          problem.solve(projection.xi, result) :
-                          SlipOutcome::left_patch;
-            // What viscosity carries ends at once where the pressure does. A
-            // point that climbs as it slides may find no place on either side
-            // of that: it has come to p = 0, and opens.
-            if (outcome == SlipOutcome::not_found && projection.faces &&
-                friction.viscous > 0. &&
-                projection.height >= law.joint->reach(friction.start, 0.))
-              return open(projection.height);
-          }
-        // Closed where it has come to: it slides. xi_hat is new, report() adds
-        // g_s and traction. The solution of a law that went below mu = 0 would
-        // push the point along; it is refused, and with it the step.
-        const SlipEquations &end = problem.at_end();
-        const double         g_n = end.g_n;
-        if (outcome == SlipOutcome::solved &&
-            is_closed(friction.start, g_n, end.distance))
-          {
-            const Vector2d xi = result.state.xi;
-            result.state      = start;
-            result.state.xi   = xi;
-            result.state.status =
-              end.response.pressure < 0. && end.response.limit == 0. ?
-                PointStatus::pulled :
-                PointStatus::slip;
-            problem.report(result);
-            result.failed = result.negative_friction = end.response.limit < 0.;
-            return;
-          }
-        // Solved with an open gap, or beyond the edge: open. Not found: an open
-        // point stands in for the result, marked as failed, so that the
-        // iteration is given up and the step made smaller.
-        const bool failed = outcome == SlipOutcome::not_found;
-        open(failed ? 0. : g_n);
-        result.failed = failed;
-        if (outcome == SlipOutcome::left_patch)
-          result.path_to_edge = end.distance;
-      }
-    };
+
+
+    // The point slides, or opens: with p = 0 the same equations project it,
+    // and the sign of the gap found there decides. Newton's method starts
+    // where the gap at xi_hat^n is as long as its limit there [MPa]; if that
+    // fails, from the projection of the point, unless it has left the master.
+    //
+    // Whether it opens cannot be told from the gap at xi_hat^n: on a curved
+    // or tilted master a point may lift off at the old place and touch at the
+    // new one, or touch at the old place only.
+    void
+    slide_or_open(const PointStep    &point,
+                  const MasterNormal &old,
+                  const Vector3d     &tangential_gap,
+                  const double        limit,
+                  ContactPointResult &result)
+    {
+      // y(xi_hat^n) moves with the master too, and the slip y(xi_hat) -
+      // y(xi_hat^n) with both: its basis is kept for the tangent.
+      const ContactPointState &start = point.before;
+      result.old_basis               = result.basis;
+      SlipProblem  problem(point);
+      const double elastic = limit / point.law.tangential_penalty,
+                   length  = tangential_gap.norm();
+      const double slip    = length > 0. ? 1. - elastic / length : 0.;
+      SlipOutcome  outcome = problem.solve(
+        point.master.surface->moved(start.xi, slip * old.parts(tangential_gap)),
+        result);
+      // The projection is near the solution wherever the tangential gap is
+      // small, however far xi_hat^n is, and starting there costs one more
+      // search. A point whose projection is beyond the edge has left the
+      // master, and opens; a projection that does not converge leaves the
+      // failure as it is.
+      if (outcome == SlipOutcome::not_found)
+        {
+          const Projection projection =
+            project(point.master, point.x, &start.xi);
+          if (projection.converged)
+            outcome = projection.faces ? problem.solve(projection.xi, result) :
+                                         SlipOutcome::left_patch;
+          // What viscosity carries ends at once where the pressure does. A
+          // point that climbs as it slides may find no place on either side
+          // of that: it has come to p = 0, and opens.
+          if (outcome == SlipOutcome::not_found && projection.faces &&
+              point.viscous > 0. &&
+              projection.height >= point.joint().reach(point.start, 0.))
+            return leave_open(point.law, start, result, projection.height);
+        }
+      // Closed where it has come to: it slides. xi_hat is new, report() adds
+      // g_s and traction. The solution of a law that went below mu = 0 would
+      // push the point along; it is refused, and with it the step.
+      const SlipEquations &end = problem.at_end();
+      const double         g_n = end.g_n;
+      if (outcome == SlipOutcome::solved && is_closed(point, g_n, end.distance))
+        {
+          const Vector2d xi = result.state.xi;
+          result.state      = start;
+          result.state.xi   = xi;
+          result.state.status =
+            end.response.pressure < 0. && end.response.limit == 0. ?
+              PointStatus::pulled :
+              PointStatus::slip;
+          problem.report(result);
+          result.failed = result.negative_friction = end.response.limit < 0.;
+          return;
+        }
+      // Solved with an open gap, or beyond the edge: open. Not found: an open
+      // point stands in for the result, marked as failed, so that the
+      // iteration is given up and the step made smaller.
+      const bool failed = outcome == SlipOutcome::not_found;
+      leave_open(point.law, start, result, failed ? 0. : g_n);
+      result.failed = failed;
+      if (outcome == SlipOutcome::left_patch)
+        result.path_to_edge = end.distance;
+    }
   } // namespace
 
 
@@ -336,12 +305,8 @@ namespace Debond
                        ContactPointResult      &result)
   {
     result.failed = result.negative_friction = false;
-    PointStep step{law, start, x, master, mode, result};
     if (!start.has_partner) // beyond the edge
-      {
-        step.open(0.);
-        return;
-      }
+      return leave_open(law, start, result);
 
     // The gap to the old interacting point, Eq. (26) at xi_hat^n, where that is
     // now; and its normal part, Eq. (27), along the normal of Eq. (24).
@@ -361,13 +326,24 @@ namespace Debond
     // and a traction in MPa are compared, both along the surface as it is now.
     // Where the limit is 0 a point slides, even where nothing has moved yet:
     // rounding would decide what sticks.
-    PointFriction           friction = step.friction(phi_0);
-    const bool              closed   = step.is_closed(friction.start, g_n, 0.);
-    const InterfaceResponse response =
-      law.joint->respond(friction.start, g_n, 0.);
-    const double   limit          = response.limit;
-    const Vector3d tangential_gap = gap - g_n * normal.n;
-    const double   trial_traction =
+    //
+    // In the frictionless part of a load history (`Friction starts at') nothing
+    // rubs and g_s does not grow.
+    PointStep point{
+      law,
+      mode,
+      master,
+      start,
+      x,
+      law.joint->begin(start, phi_0, mode.duration, mode.frictionless),
+      viscous_stiffness(law, mode)};
+    if (law.joint->cohesion)
+      point.start.damage = mode.damage;
+    const bool              closed   = is_closed(point, g_n, 0.);
+    const InterfaceResponse response = law.joint->respond(point.start, g_n, 0.);
+    const double            limit    = response.limit;
+    const Vector3d          tangential_gap = gap - g_n * normal.n;
+    const double            trial_traction =
       law.tangential_penalty * tangential_gap.norm();
     // In the first iteration of some attempts all closed points are made to
     // stick, whatever they would carry: the tangent is then that of bodies
@@ -375,14 +351,14 @@ namespace Debond
     // and slip. The true law takes over in the next one.
     const bool holds = limit > 0. && trial_traction <= limit;
     if (closed && (mode.stick_first || holds))
-      step.stick(friction, response, gap, normal);
+      stick(point, response, gap, normal, result);
     else if (mode.stick_first || (!closed && holds))
-      step.open(g_n); // a bond that is still to form would hold it in place
+      // a bond that is still to form would hold it in place
+      leave_open(law, start, result, g_n);
     else
       {
-        step.bring_along(normal, friction);
-        step.slide_or_open(friction, normal, tangential_gap, limit);
+        bring_along(normal, point);
+        slide_or_open(point, normal, tangential_gap, limit, result);
       }
   }
-
 } // namespace Debond

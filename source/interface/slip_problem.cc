@@ -24,22 +24,18 @@ namespace Debond
   // needs the other. First comes the gap g = x - y, Eq. (26), and its part
   // along the normal there, Eq. (27), which gives the pressure; then the
   // direction of slip; then the traction that friction allows.
-  inline SlipEquations::SlipEquations(const ContactPointLaw &law,
-                                      const PointFriction   &friction,
-                                      const Vector3d        &x,
-                                      const Vector3d        &y_old,
-                                      const SurfaceGeometry &geometry,
-                                      const double           outward_sign)
-    : normal(geometry, outward_sign)
-    , slip(geometry.y - y_old)
-    , law(law)
+  inline SlipEquations::SlipEquations(const PointStep       &point,
+                                      const SurfaceGeometry &geometry)
+    : normal(geometry, point.master.outward_sign)
+    , slip(geometry.y - point.y_old)
+    , point(point)
+    , eps_t(point.law.tangential_penalty)
     , geometry(geometry)
-    , friction(friction)
-    , gap(x - geometry.y)
-    , trial_gap(x - y_old)
+    , gap(point.x - geometry.y)
+    , trial_gap(point.x - point.y_old)
   {
     g_n = normal.n.dot(gap);
-    if (law.slip_direction == SlipDirection::integrated)
+    if (point.law.slip_direction == SlipDirection::integrated)
       integrate_slip();
     else
       find_direction();
@@ -61,17 +57,15 @@ namespace Debond
     axes.col(1)                    = normal.n.cross(axes.col(0));
     const Vector3d          g_t    = gap - g_n * normal.n;
     const double            length = g_t.norm();
-    const InterfaceResponse held =
-      friction.law.respond(friction.start, g_n, 0.);
-    held_by_gap    = held.limit_by_gap;
-    held_by_damage = held.limit_by_damage;
-    towed.emplace(
-      TowedGap::Step{friction.arc,
-                     axes.transpose() * friction.old_gap,
-                     axes.transpose() * (trial_gap - friction.old_gap),
-                     friction.old_limit,
-                     held.limit / law.tangential_penalty,
-                     length});
+    const InterfaceResponse held = point.joint().respond(point.start, g_n, 0.);
+    held_by_gap                  = held.limit_by_gap;
+    held_by_damage               = held.limit_by_damage;
+    towed.emplace(TowedGap::Step{point.arc,
+                                 axes.transpose() * point.old_gap,
+                                 axes.transpose() * (trial_gap - point.old_gap),
+                                 point.old_limit,
+                                 held.limit / eps_t,
+                                 length});
     tau       = axes * towed->direction;
     distance  = towed->distance;
     along_gap = Vector3d::Zero();
@@ -92,18 +86,19 @@ namespace Debond
   {
     if (!towed)
       find_distance();
-    response = friction.law.respond(friction.start, g_n, distance);
-    const auto with_viscosity = friction.limit(response, distance);
-    limit                     = with_viscosity.value;
-    slope                     = with_viscosity.slope;
+    response = point.joint().respond(point.start, g_n, distance);
+    // It resists as fast as the point moves, and pulls where a trial moves
+    // backwards.
+    const double resistance = response.resists ? point.viscous : 0.;
+    limit                   = response.limit + resistance * distance;
+    slope                   = response.limit_by_slip + resistance;
 
-    viscous_traction    = with_viscosity.resistance * distance * tau;
+    viscous_traction    = resistance * distance * tau;
     tangential_traction = limit * tau;
     traction            = -response.pressure * normal.n + tangential_traction;
-    excess              = gap - traction / law.tangential_penalty;
+    excess              = gap - traction / eps_t;
     tangents << geometry.a1, geometry.a2;
-    h = tangents.transpose() *
-        (gap - tangential_traction / law.tangential_penalty);
+    h = tangents.transpose() * (gap - tangential_traction / eps_t);
   }
 
 
@@ -135,8 +130,8 @@ namespace Debond
                                             by.leftCols<2>() * axes.transpose(),
                                           moved = by.middleCols<2>(2) *
                                                   axes.transpose();
-        const Vector3d &g = friction.old_gap;
-        by_normal_gap += held_by_gap / law.tangential_penalty * by.col(4);
+        const Vector3d &g = point.old_gap;
+        by_normal_gap += held_by_gap / eps_t * by.col(4);
         change.old_gap = held - moved;
         change.trial   = moved;
         change.gap     = by.col(5) * along_gap.transpose();
@@ -174,8 +169,7 @@ namespace Debond
     auto               &d = result.traction_and_distance;
     d << change.gap, change.normal * normal.derivative(), change.trial,
       change.old_gap, change.turn;
-    result.h =
-      -1. / law.tangential_penalty * tangents.transpose() * d.topRows<3>();
+    result.h = -1. / eps_t * tangents.transpose() * d.topRows<3>();
     result.h.middleCols<3>(W::gap) += tangents.transpose();
     result.h.block<1, 3>(0, W::a1) += excess.transpose();
     result.h.block<1, 3>(1, W::a2) += excess.transpose();
@@ -200,8 +194,7 @@ namespace Debond
     d =
       -change.normal * (normal.duals * along(normal.n)) - change.gap * tangents;
     result.h = along(excess) -
-               tangents.transpose() *
-                 (tangents + 1. / law.tangential_penalty * d.topRows<3>());
+               tangents.transpose() * (tangents + 1. / eps_t * d.topRows<3>());
     return result;
   }
 
@@ -216,10 +209,8 @@ namespace Debond
     auto         &d = result.traction_and_distance;
     d               = with(response.limit_by_damage * tau, 0.);
     if (towed)
-      d += held_by_damage / law.tangential_penalty *
-           (by_towed() * towed->derivative.col(4));
-    result.h =
-      -1. / law.tangential_penalty * tangents.transpose() * d.topRows<3>();
+      d += held_by_damage / eps_t * (by_towed() * towed->derivative.col(4));
+    result.h = -1. / eps_t * tangents.transpose() * d.topRows<3>();
     return result;
   }
 
@@ -252,20 +243,7 @@ namespace Debond
 
 
   // Finding the interacting point.
-  SlipProblem::SlipProblem(const ContactPointLaw &law,
-                           const PointFriction   &friction,
-                           const Vector3d        &x,
-                           const Vector3d        &y_old,
-                           const MasterSurface   &master)
-    : law(law)
-    , friction(friction)
-    , x(x)
-    , y_old(y_old)
-    , master(master)
-  {}
-
-
-
+  //
   // Newton's method for the two parameters, with a line search on |h|. As long
   // as a step does not slide over kinks of the law or of the surface it takes
   // two or three iterations. The parameters stay in the surface: an
@@ -288,7 +266,7 @@ namespace Debond
           return SlipOutcome::not_found;
         if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off())
           break;
-        const Vector2d bounded = master.surface->bounded_step(xi, step);
+        const Vector2d bounded = surface.bounded_step(xi, step);
         if (bounded != step && ++pushes > 5)
           return SlipOutcome::left_patch;
         // At the level of rounding no descent is to be had, and one more step
@@ -296,7 +274,7 @@ namespace Debond
         // this is it.
         if (error <= 16. * round_off())
           {
-            xi = master.surface->moved(xi, bounded);
+            xi = surface.moved(xi, bounded);
             evaluate(xi, result.basis);
             break;
           }
@@ -304,8 +282,8 @@ namespace Debond
           break;
       }
     if (distance_error() > 100. * round_off())
-      return master.surface->has_ridges() ? solve_with_ridges(xi, result) :
-                                            SlipOutcome::not_found;
+      return surface.has_ridges() ? solve_with_ridges(xi, result) :
+                                    SlipOutcome::not_found;
     result.state.xi = xi;
     return SlipOutcome::solved;
   }
@@ -317,7 +295,7 @@ namespace Debond
   SlipProblem::ElementStep
   SlipProblem::step_in_element(const NurbsSurface::Place &place)
   {
-    const auto            box   = master.surface->element_bounds(place.element);
+    const auto            box   = surface.element_bounds(place.element);
     const SlipEquations  &e     = *equations;
     const Eigen::Matrix2d slope = along_surface().h;
     ElementStep           result{-slope.inverse() * e.h};
@@ -346,7 +324,6 @@ namespace Debond
   {
     constexpr unsigned int max_iterations = 60;
     constexpr double       negligible     = 1e-13; // of a parameter
-    const NurbsSurface    &surface        = *master.surface;
     NurbsSurface::Place    now{surface.element_of(start), start};
     evaluate_in(now, result.basis);
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
@@ -408,7 +385,7 @@ namespace Debond
     const Vector2d old = xi;
     for (double fraction = 1.; fraction > 0.01; fraction *= 0.5)
       {
-        xi = master.surface->moved(old, fraction * step);
+        xi = surface.moved(old, fraction * step);
         evaluate(xi, basis);
         if (distance_error() < error)
           return true;
@@ -442,7 +419,7 @@ namespace Debond
     result.pressure         = e.response.pressure;
     result.viscous_pressure = e.response.viscous_pressure;
     result.state.gap =
-      e.normal.parts(e.tangential_traction / law.tangential_penalty);
+      e.normal.parts(e.tangential_traction / point.law.tangential_penalty);
     result.softening           = e.softening();
     result.traction            = e.traction;
     result.tangential_traction = e.tangential_traction;
@@ -450,10 +427,10 @@ namespace Debond
     result.slip_increment      = e.slip;
     result.energy              = e.response.energy + 0.5 *
                                           e.tangential_traction.squaredNorm() /
-                                          law.tangential_penalty;
+                                          point.law.tangential_penalty;
     // the history of the point once the step is accepted
     static_cast<PointHistory &>(result.state) =
-      friction.law.advance(friction.start, e.g_n, e.distance);
+      point.joint().advance(point.start, e.g_n, e.distance);
     const auto by_w = e.along_w();
     along_surface();
     // what a ridge holds does not move
@@ -469,7 +446,7 @@ namespace Debond
     const Eigen::Matrix<double, 4, W::size> total =
       by_w.traction_and_distance + by_xi->traction_and_distance * result.dxi;
     result.dt = total.topRows<3>();
-    if (friction.law.cohesion)
+    if (point.joint().cohesion)
       {
         const auto by_damage = e.along_damage();
         result.by_damage.xi  = -inverse * by_damage.h;
@@ -480,10 +457,10 @@ namespace Debond
       }
     // where it has not moved the length has no derivative
     result.dpath.setZero();
-    if (result.state.slip != friction.start.history.slip)
+    if (result.state.slip != point.start.history.slip)
       result.dpath = total.row(3);
-    if (friction.law.opened(result.state) >
-        friction.law.opened(friction.start.history))
+    if (point.joint().opened(result.state) >
+        point.joint().opened(point.start.history))
       result.dpath += e.gap_along_w() + e.gap_along_surface() * result.dxi;
   }
 
@@ -494,7 +471,7 @@ namespace Debond
   inline void
   SlipProblem::evaluate(const Vector2d &xi, SurfaceBasis &basis)
   {
-    evaluate_in({master.surface->element_of(xi), xi}, basis);
+    evaluate_in({surface.element_of(xi), xi}, basis);
   }
 
 
@@ -503,9 +480,9 @@ namespace Debond
   SlipProblem::evaluate_in(const NurbsSurface::Place &place,
                            SurfaceBasis              &basis)
   {
-    master.surface->evaluate_in_element(place.element, place.xi, basis, true);
-    contract(basis, *master.positions, true, geometry);
-    equations.emplace(law, friction, x, y_old, geometry, master.outward_sign);
+    surface.evaluate_in_element(place.element, place.xi, basis, true);
+    contract(basis, *point.master.positions, true, geometry);
+    equations.emplace(point, geometry);
     by_xi.reset();
   }
 
@@ -517,8 +494,8 @@ namespace Debond
   inline double
   SlipProblem::round_off() const
   {
-    return 1e-16 * (x.norm() + geometry.a1.norm() + geometry.a2.norm()) *
-           (1. + std::abs(equations->slope) / law.tangential_penalty);
+    return 1e-16 * (point.x.norm() + geometry.a1.norm() + geometry.a2.norm()) *
+           (1. + std::abs(equations->slope) / point.law.tangential_penalty);
   }
 
 

@@ -38,14 +38,6 @@ namespace Debond
                 PointStart             start,
                 const Eigen::Vector3d &before) const;
 
-    /** For the share that rubs. */
-    ContactPointMode
-    with_damage(ContactPointMode mode) const
-    {
-      mode.damage = damage;
-      return mode;
-    }
-
     bool            holds    = false;
     double          damage   = 0;        ///< at the end of the step
     double          pressure = 0;        ///< negative: the pull [MPa]

@@ -34,11 +34,12 @@ namespace Debond
   viscous_stiffness(const ContactPointLaw &law, const ContactPointMode &mode);
 
   /** A point that is open whatever its gap, for that it is beyond the edge of
-   *  the master: writes @p result. */
+   *  the master: writes @p result, with the gap @p g_n [mm] for output. */
   void
   leave_open(const ContactPointLaw   &law,
              const ContactPointState &old_state,
-             ContactPointResult      &result);
+             ContactPointResult      &result,
+             double                   g_n = 0.);
 
   /**
    * The update of one slave quadrature point: (state_n, kinematics) ->

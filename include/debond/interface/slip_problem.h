@@ -2,8 +2,7 @@
 #define debond_interface_slip_problem_h
 
 #include <debond/geometry/surface_geometry.h>
-#include <debond/interface/contact_point_state.h>
-#include <debond/interface/point_friction.h>
+#include <debond/interface/point_step.h>
 
 #include <Eigen/Dense>
 
@@ -79,14 +78,8 @@ namespace Debond
   class SlipEquations
   {
   public:
-    /** All that is referred to must outlive this object. @p y_old:
-     *  y(xi_hat^n) on the current surface. */
-    SlipEquations(const ContactPointLaw &law,
-                  const PointFriction   &friction,
-                  const Eigen::Vector3d &x,
-                  const Eigen::Vector3d &y_old,
-                  const SurfaceGeometry &geometry,
-                  double                 outward_sign);
+    /** Where the master has this @p geometry. Both must outlive the object. */
+    SlipEquations(const PointStep &point, const SurfaceGeometry &geometry);
 
     /** What changes with N quantities at once, one column for each: traction
      *  [MPa] and, in the last row, distance; and h. */
@@ -118,7 +111,7 @@ namespace Debond
     softening() const
     {
       return std::max(0., -response.limit_by_slip) /
-             (law.tangential_penalty + friction.viscous);
+             (point.law.tangential_penalty + point.viscous);
     }
 
     // What the point has come to at the trial place. h has to vanish: it is
@@ -176,9 +169,9 @@ namespace Debond
     // Of the two gaps below the first is what the springs of the interface are
     // stretched by, Eq. (26), the second what they would be stretched by
     // without slip in this step. Their difference is the slip.
-    const ContactPointLaw &law;
+    const PointStep       &point;
+    const double           eps_t; ///< [MPa/mm]
     const SurfaceGeometry &geometry;
-    const PointFriction   &friction;
     const Eigen::Vector3d  gap, trial_gap; ///< x - y and x - y_n [mm]
 
     Eigen::Vector3d tau; ///< direction of the slip; zero if there is none
@@ -234,11 +227,11 @@ namespace Debond
   class SlipProblem
   {
   public:
-    SlipProblem(const ContactPointLaw &law,
-                const PointFriction   &friction,
-                const Eigen::Vector3d &x,
-                const Eigen::Vector3d &y_old,
-                const MasterSurface   &master);
+    /** Of a @p point that must outlive the object. */
+    explicit SlipProblem(const PointStep &point)
+      : point(point)
+      , surface(*point.master.surface)
+    {}
 
     /** From @p start; writes the basis and, if solved, xi_hat. */
     SlipOutcome
@@ -295,10 +288,8 @@ namespace Debond
     SlipOutcome
     solve_with_ridges(const Eigen::Vector2d &start, ContactPointResult &result);
 
-    const ContactPointLaw &law;
-    const PointFriction   &friction;
-    const Eigen::Vector3d &x, &y_old;
-    const MasterSurface   &master;
+    const PointStep    &point;
+    const NurbsSurface &surface; ///< of the master
     /** Parameters that a ridge of the master holds. */
     std::array<bool, 2> held{{false, false}};
 

@@ -1,0 +1,39 @@
+#ifndef debond_interface_point_step_h
+#define debond_interface_point_step_h
+
+#include <debond/interface/contact_point_state.h>
+#include <debond/interface/towed_gap.h>
+
+#include <Eigen/Core>
+
+namespace Debond
+{
+  /** A slave point in a step: what is known before its new xi_hat is.
+   *  All that is referred to must outlive it. */
+  struct PointStep
+  {
+    const ContactPointLaw   &law;
+    const ContactPointMode  &mode;
+    const MasterSurface     &master;
+    const ContactPointState &before; ///< with an xi_hat^n
+    Eigen::Vector3d          x;      ///< where the slave point ends [mm]
+    PointStart               start;  ///< what the law knows of it
+    /** eta / dt, the resistance of its speed per distance [MPa/mm]. */
+    double viscous = 0.;
+
+    // What the point had come to at the end of the step before, where the
+    // master has taken it: y(xi_hat^n) and the gap [mm]. For slip that is
+    // integrated over the step, the length of the gap at which the point slid
+    // [mm], and its way.
+    Eigen::Vector3d y_old = Eigen::Vector3d::Zero(), old_gap = y_old;
+    double          old_limit = 0.;
+    Arc             arc       = Arc();
+
+    const InterfaceLaw &
+    joint() const
+    {
+      return *law.joint;
+    }
+  };
+} // namespace Debond
+#endif

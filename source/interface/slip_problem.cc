@@ -246,46 +246,44 @@ namespace Debond
   //
   // Newton's method for the two parameters, with a line search on |h|. As long
   // as a step does not slide over kinks of the law or of the surface it takes
-  // two or three iterations. The parameters stay in the surface: an
-  // iteration that keeps pushing against its border has left the master, and
-  // the point opens. What is not found is said, never guessed: the caller tries
-  // another start, and then the step fails and is made smaller.
+  // one or two iterations. The last step needs no evaluation, see report():
+  // where |h| is rounding, or small, and falls so fast that its square is. The
+  // parameters stay in the surface: an iteration that keeps pushing against its
+  // border has left the master, and the point opens. What is not found is said,
+  // never guessed: the caller tries another start, and then the step fails and
+  // is made smaller.
   SlipOutcome
   SlipProblem::solve(const Vector2d &start, ContactPointResult &result)
   {
     constexpr unsigned int max_iterations = 30;
     Vector2d               xi             = start;
+    double                 before         = 0.; // error of the last iteration
     held                                  = {{false, false}};
     evaluate(xi, result.basis);
     unsigned int pushes = 0;
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
-        const double   error = distance_error();
-        const Vector2d step  = -along_surface().h.inverse() * equations->h;
+        const double   error = distance_error(), rounding = round_off();
+        const Vector2d step = -along_surface().h.inverse() * equations->h;
         if (!step.allFinite())
           return SlipOutcome::not_found;
-        if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= round_off())
-          break;
         const Vector2d bounded = surface.bounded_step(xi, step);
+        if (error <= 100. * rounding ||
+            (error <= 1e4 * rounding &&
+             error * error * error <= rounding * before * before))
+          {
+            last_step       = bounded;
+            result.state.xi = surface.moved(xi, last_step);
+            return SlipOutcome::solved;
+          }
         if (bounded != step && ++pushes > 5)
           return SlipOutcome::left_patch;
-        // At the level of rounding no descent is to be had, and one more step
-        // is all that there is to gain. Otherwise the test below says whether
-        // this is it.
-        if (error <= 16. * round_off())
-          {
-            xi = surface.moved(xi, bounded);
-            evaluate(xi, result.basis);
-            break;
-          }
         if (!search_along(bounded, error, xi, result.basis))
           break;
+        before = error;
       }
-    if (distance_error() > 100. * round_off())
-      return surface.has_ridges() ? solve_with_ridges(xi, result) :
-                                    SlipOutcome::not_found;
-    result.state.xi = xi;
-    return SlipOutcome::solved;
+    return surface.has_ridges() ? solve_with_ridges(xi, result) :
+                                  SlipOutcome::not_found;
   }
 
 
@@ -325,6 +323,7 @@ namespace Debond
     constexpr unsigned int max_iterations = 60;
     constexpr double       negligible     = 1e-13; // of a parameter
     NurbsSurface::Place    now{surface.element_of(start), start};
+    last_step.setZero();
     evaluate_in(now, result.basis);
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
@@ -411,28 +410,37 @@ namespace Debond
   // soften and turn. The stored energy is that of the normal and of the
   // tangential gap; what friction dissipates is summed up elsewhere, from
   // traction and slip.
+  //
+  // Newton's last step moves xi_hat by 1e-11 mm at most. What it changes
+  // follows from the derivatives, up to its square.
   void
   SlipProblem::report(ContactPointResult &result)
   {
-    const SlipEquations &e  = *equations;
-    result.normal_gap       = e.g_n;
-    result.pressure         = e.response.pressure;
-    result.viscous_pressure = e.response.viscous_pressure;
+    const SlipEquations     &e        = *equations;
+    const InterfaceResponse &response = e.response;
+    const Vector4d change = along_surface().traction_and_distance * last_step;
+    const double   gap    = e.gap_along_surface() * last_step,
+                 distance = e.distance + change[3],
+                 pressure = response.pressure + response.pressure_by_gap * gap +
+                            response.pressure_by_slip * change[3];
+    result.normal_gap          = e.g_n + gap;
+    result.pressure            = pressure;
+    result.viscous_pressure    = response.viscous_pressure;
+    result.traction            = e.traction + change.head<3>();
+    result.tangential_traction = result.traction + pressure * e.normal.n;
     result.state.gap =
-      e.normal.parts(e.tangential_traction / point.law.tangential_penalty);
-    result.softening           = e.softening();
-    result.traction            = e.traction;
-    result.tangential_traction = e.tangential_traction;
-    result.viscous_traction    = e.viscous_traction;
-    result.slip_increment      = e.slip;
-    result.energy              = e.response.energy + 0.5 *
-                                          e.tangential_traction.squaredNorm() /
-                                          point.law.tangential_penalty;
+      e.normal.parts(result.tangential_traction / point.law.tangential_penalty);
+    result.softening        = e.softening();
+    result.viscous_traction = e.viscous_traction;
+    result.slip_increment =
+      e.slip + geometry.a1 * last_step[0] + geometry.a2 * last_step[1];
+    result.energy =
+      response.energy + 0.5 * result.tangential_traction.squaredNorm() /
+                          point.law.tangential_penalty;
     // the history of the point once the step is accepted
     static_cast<PointHistory &>(result.state) =
-      point.joint().advance(point.start, e.g_n, e.distance);
+      point.joint().advance(point.start, result.normal_gap, distance);
     const auto by_w = e.along_w();
-    along_surface();
     // what a ridge holds does not move
     Eigen::Matrix2d inverse = by_xi->h.inverse();
     for (unsigned int d = 0; d < 2; ++d)

@@ -290,6 +290,8 @@ namespace Debond
 
     const PointStep    &point;
     const NurbsSurface &surface; ///< of the master
+    /** Newton's step that is left where the search has ended. */
+    Eigen::Vector2d last_step;
     /** Parameters that a ridge of the master holds. */
     std::array<bool, 2> held{{false, false}};
 

@@ -178,22 +178,35 @@ namespace Debond
 
 
 
+  // Parts of a vector along the second derivatives a_alpha,beta.
+  inline Eigen::Matrix2d
+  SlipEquations::bend(const Vector3d &v) const
+  {
+    const double    mixed = v.dot(geometry.a12);
+    Eigen::Matrix2d result;
+    result << v.dot(geometry.a11), mixed, mixed, v.dot(geometry.a22);
+    return result;
+  }
+
+
+
+  inline Eigen::Matrix<double, 3, 2>
+  SlipEquations::normal_along_surface() const
+  {
+    return -normal.duals * bend(normal.n);
+  }
+
+
+
   // With respect to xi_hat: y moves along the tangents, and the tangents change
   // with the second derivatives of the surface, a_alpha,beta. x and y_n stay.
   inline SlipEquations::Derivative<2>
   SlipEquations::along_surface() const
   {
-    const SurfaceGeometry &y     = geometry;
-    const auto             along = [&y](const Vector3d &v) {
-      Eigen::Matrix2d result;
-      result << v.dot(y.a11), v.dot(y.a12), v.dot(y.a12), v.dot(y.a22);
-      return result;
-    };
     Derivative<2> result;
     auto         &d = result.traction_and_distance;
-    d =
-      -change.normal * (normal.duals * along(normal.n)) - change.gap * tangents;
-    result.h = along(excess) -
+    d        = change.normal * normal_along_surface() - change.gap * tangents;
+    result.h = bend(excess) -
                tangents.transpose() * (tangents + 1. / eps_t * d.topRows<3>());
     return result;
   }
@@ -233,11 +246,7 @@ namespace Debond
   inline Eigen::Matrix<double, 1, 2>
   SlipEquations::gap_along_surface() const
   {
-    const SurfaceGeometry &y = geometry;
-    const Vector3d        &n = normal.n;
-    Eigen::Matrix2d        bend;
-    bend << n.dot(y.a11), n.dot(y.a12), n.dot(y.a12), n.dot(y.a22);
-    return -gap.transpose() * normal.duals * bend;
+    return gap.transpose() * normal_along_surface();
   }
 
 
@@ -246,12 +255,13 @@ namespace Debond
   //
   // Newton's method for the two parameters, with a line search on |h|. As long
   // as a step does not slide over kinks of the law or of the surface it takes
-  // one or two iterations. The last step needs no evaluation, see report():
-  // where |h| is rounding, or small, and falls so fast that its square is. The
-  // parameters stay in the surface: an iteration that keeps pushing against its
-  // border has left the master, and the point opens. What is not found is said,
-  // never guessed: the caller tries another start, and then the step fails and
-  // is made smaller.
+  // one or two iterations. The parameters stay in the surface: an iteration
+  // that keeps pushing against its border has left the master, and the point
+  // opens. What is not found is said, never guessed: the caller tries another
+  // start, and then the step fails and is made smaller.
+  //
+  // The last step needs no evaluation, see report(), where |h| is small and
+  // falls so fast that what is left after that step is rounding.
   SlipOutcome
   SlipProblem::solve(const Vector2d &start, ContactPointResult &result)
   {
@@ -259,6 +269,7 @@ namespace Debond
     Vector2d               xi             = start;
     double                 before         = 0.; // error of the last iteration
     held                                  = {{false, false}};
+    last_step.setZero();
     evaluate(xi, result.basis);
     unsigned int pushes = 0;
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
@@ -267,23 +278,35 @@ namespace Debond
         const Vector2d step = -along_surface().h.inverse() * equations->h;
         if (!step.allFinite())
           return SlipOutcome::not_found;
+        if (step.cwiseAbs().maxCoeff() < 1e-15 || error <= rounding)
+          break;
         const Vector2d bounded = surface.bounded_step(xi, step);
-        if (error <= 100. * rounding ||
-            (error <= 1e4 * rounding &&
-             error * error * error <= rounding * before * before))
-          {
-            last_step       = bounded;
-            result.state.xi = surface.moved(xi, last_step);
-            return SlipOutcome::solved;
-          }
         if (bounded != step && ++pushes > 5)
           return SlipOutcome::left_patch;
+        if (error <= 1e4 * rounding &&
+            std::pow(error, 3) <= rounding * std::pow(before, 2))
+          {
+            last_step = bounded;
+            break;
+          }
+        // At the level of rounding no descent is to be had, and one more step
+        // is all that there is to gain. Otherwise the test below says whether
+        // this is it.
+        if (error <= 16. * rounding)
+          {
+            xi = surface.moved(xi, bounded);
+            evaluate(xi, result.basis);
+            break;
+          }
         if (!search_along(bounded, error, xi, result.basis))
           break;
         before = error;
       }
-    return surface.has_ridges() ? solve_with_ridges(xi, result) :
-                                  SlipOutcome::not_found;
+    if (last_step.isZero(0.) && distance_error() > 100. * round_off())
+      return surface.has_ridges() ? solve_with_ridges(xi, result) :
+                                    SlipOutcome::not_found;
+    result.state.xi = surface.moved(xi, last_step);
+    return SlipOutcome::solved;
   }
 
 
@@ -323,7 +346,6 @@ namespace Debond
     constexpr unsigned int max_iterations = 60;
     constexpr double       negligible     = 1e-13; // of a parameter
     NurbsSurface::Place    now{surface.element_of(start), start};
-    last_step.setZero();
     evaluate_in(now, result.basis);
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
@@ -418,16 +440,20 @@ namespace Debond
   {
     const SlipEquations     &e        = *equations;
     const InterfaceResponse &response = e.response;
+    const Vector3d           n_turns  = e.normal_along_surface() * last_step;
     const Vector4d change = along_surface().traction_and_distance * last_step;
     const double   gap    = e.gap_along_surface() * last_step,
                  distance = e.distance + change[3],
-                 pressure = response.pressure + response.pressure_by_gap * gap +
-                            response.pressure_by_slip * change[3];
+                 more     = response.pressure_by_gap * gap +
+                        response.pressure_by_slip * change[3]; // pressure
     result.normal_gap          = e.g_n + gap;
-    result.pressure            = pressure;
+    result.pressure            = response.pressure + more;
     result.viscous_pressure    = response.viscous_pressure;
     result.traction            = e.traction + change.head<3>();
-    result.tangential_traction = result.traction + pressure * e.normal.n;
+    result.tangential_traction = e.tangential_traction;
+    if (response.limit != 0.) // else rounding would have a direction
+      result.tangential_traction +=
+        change.head<3>() + more * e.normal.n + response.pressure * n_turns;
     result.state.gap =
       e.normal.parts(result.tangential_traction / point.law.tangential_penalty);
     result.softening        = e.softening();

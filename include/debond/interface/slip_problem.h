@@ -103,6 +103,9 @@ namespace Debond
     gap_along_w() const;
     Eigen::Matrix<double, 1, 2>
     gap_along_surface() const;
+    /** And of the normal. */
+    Eigen::Matrix<double, 3, 2>
+    normal_along_surface() const;
 
     /** -dL/d g_s / (eps_t + eta / dt) where the law softens, dimensionless:
      *  how fast the limit falls with the slip, relative to how fast the springs
@@ -153,6 +156,9 @@ namespace Debond
     /** What traction and distance change with. */
     void
     find_changes();
+
+    Eigen::Matrix2d
+    bend(const Eigen::Vector3d &v) const;
 
     /** A change of traction and distance. */
     static Eigen::Vector4d

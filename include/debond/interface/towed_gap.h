@@ -8,7 +8,7 @@
 
 namespace Debond
 {
-  /** What is to be known of an arc that turns by an angle. */
+  /** Arc that turns by an angle: chord and end of one of length 1. */
   struct Arc
   {
     explicit Arc(const double turn = 0.)
@@ -46,7 +46,7 @@ namespace Debond
    */
   struct TowedGap
   {
-    /** What is known of the step, in the tangent plane. */
+    /** Gap, motion and limits of the step, in the tangent plane. */
     struct Step
     {
       const Arc      &arc;        ///< of the path

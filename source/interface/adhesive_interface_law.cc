@@ -316,7 +316,7 @@ namespace Debond
         return mean * distance;
       }
 
-      /** Whether a point with this history is bonded. */
+      /** True if a point with this history is bonded. */
       bool
       holds(const PointHistory &history, const double phi_0) const
       {

@@ -16,10 +16,10 @@ namespace Debond
 {
   namespace
   {
-    /** How far each element of several may be off the surface that all stand
-     *  for [mm]. Plane facets of a circle bulge by 1 - cos(theta/2) of its
-     *  radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above the
-     *  plane of its neighbour: three times that or more, up to theta = 60
+    /** Distance by which each of several elements may be off the surface that
+     * all stand for [mm]. Plane facets of a circle bulge by 1 - cos(theta/2) of
+     * its radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above
+     * the plane of its neighbour: three times that or more, up to theta = 60
      *  degrees, from where on there is an edge. Both directions add up.
      *  Elements that are curved themselves: a twentieth. */
     std::vector<double>

@@ -241,7 +241,7 @@ namespace Debond
 
     using Row = Eigen::Matrix<double, 1, 7>;
 
-    /** How the string lies when sliding begins, and how far the point then has
+    /** The string when sliding begins, and the way that the point then has
      *  to go, with derivatives like those of TowedGap. */
     struct Start
     {

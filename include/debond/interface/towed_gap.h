@@ -27,8 +27,8 @@ namespace Debond
 
 
   /**
-   * How the gap of a sliding point turns in a step, and how far the point
-   * slides: the variant `integrated' of Expert / Slip direction.
+   * Gap of a sliding point, as it turns in a step, and the distance that the
+   * point slides: the variant `integrated' of Expert / Slip direction.
    *
    * In the tangent plane the tangential gap g is a string that tows its anchor,
    * the interacting point. The point moves along a path, seen from the master;

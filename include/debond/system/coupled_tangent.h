@@ -9,7 +9,7 @@
 namespace Debond
 {
   /**
-   * What it takes to follow a path of equilibrium: all six chuck components and
+   * Equation of a path of equilibrium: all six chuck components and
    * the time are unknowns of the coupled system then, with the equations q_k =
    * value_k(time) for prescribed components and, for the time, that it or the
    * mean sliding distance has a given value.

@@ -33,7 +33,6 @@ COMMANDS = {
     "study": ("SCENE.prm [--set ENTRY=VALUE]... [--jobs N] [--threads N] [--force] [--check]", 1,
               {"--set": [], "--jobs": PROCESSORS, "--threads": 0, "--force": False, "--check": False}),
 }
-PACKAGES = {"_debond": "build debond with pybind11, apt install pybind11-dev python3-dev"}
 
 
 def _read(words, usage, n_files, options):
@@ -68,8 +67,8 @@ def main(words) -> int:
         files, options = _read(words[1:], *COMMANDS[words[0]])
         return importlib.import_module("debond." + words[0]).main(*files, options) or 0
     except ImportError as error:
-        needed = PACKAGES.get(error.name, f"apt install python3-{error.name}")
-        say(f"debond: '{words[0]}' needs the module {error.name} of Python: {needed}", sys.stderr)
+        needed = "pybind11-dev python3-dev, and build debond again" if error.name == "_debond" else f"python3-{error.name}"
+        say(f"debond: '{words[0]}' needs the module {error.name} of Python: apt install {needed}", sys.stderr)
         return 1
     except (InputError, OSError) as error:
         say(error, sys.stderr)
@@ -78,8 +77,9 @@ def main(words) -> int:
         say(error, sys.stderr)
         return 2
     except Interrupted as error:
-        say(error, sys.stderr)
-        return 128 + error.signal
+        number, text = error.args
+        say(text, sys.stderr)
+        return 128 + number
     except KeyboardInterrupt:
         say("interrupted: the same command goes on, without --force", sys.stderr)
         return 130

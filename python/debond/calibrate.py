@@ -1,9 +1,9 @@
 """A scene with `Task = calibrate` as the program runs it: into its directory, with all files."""
 
-import hashlib
 import json
 import math
 import os
+import pathlib
 from typing import Any, Dict
 
 import numpy
@@ -13,8 +13,7 @@ import _debond
 from . import intervals
 from .errors import RunError
 from .executors import check_workers
-from .experiment import RIG
-from .files import csv_text, heeding, say, write_whole
+from .files import csv_text, digest_of, heeding, make_directory, say, write_json, write_whole
 from .fit import fit_problem, problem_of
 from .measurement import rows_in_words, unit_doubt
 from .page import write_page_if_possible
@@ -33,15 +32,24 @@ def _rigs(done):
     for experiment in problem.experiments:
         rig, held = experiment.changes(done.values)[1], problem.unknowns.entries(experiment.number, done.values)
         said = {entry.name for entry in experiment.given}
-        result.append({name: {"value": rig[key], "unit": _debond.unit_of("Calibration / " + name),
+        result.append({name: {"value": value, "unit": _debond.unit_of("Calibration / " + name),
                               "fitted": "Calibration / " + name in held}
-                       for key, name in RIG.items() if "Calibration / " + name in said})
+                       for name, value in rig.items() if "Calibration / " + name in said})
     return result
+
+
+def _outline(problem, **found):
+    """What calibration.json holds of any fit, and what has been found; nothing in the place of what has not."""
+    runs = problem.runs
+    lists = ("measured_rows", "rig", "curves", "noise", "taken_as_known", "optima", "cannot_be_told", "warnings", "candidates")
+    return {"title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(), "seconds": None,
+            "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure,
+            "measured_values": len(problem.measured), "unknowns": {}, "correlations": {}, **dict.fromkeys(lists, []), **found}
 
 
 def json_of(done) -> Dict[str, Any]:
     """What calibration.json holds of a Fit."""
-    problem, told, names, runs = done.problem, done.told, done.names, done.problem.runs
+    problem, told, names = done.problem, done.told, done.names
     unknowns = {u.name: {"value": done.values[j], "unit": u.unit, "lower_95": done.lower[j], "upper_95": done.upper[j],
                          "told": done.is_told[j], "at_bound": not told.free[j], "start": u.start, "bounds": [u.lower, u.upper],
                          "logarithmic": u.logarithmic} for j, u in enumerate(problem.unknowns.list)}
@@ -53,20 +61,23 @@ def json_of(done) -> Dict[str, Any]:
                "correlation_of_neighbours": m.noise.correlation, "rows": s.slice.stop - s.slice.start,
                "effective_rows": m.effective_rows} for m, s in zip(done.misfits, problem.series)]
     per_search = numpy.where(problem.unknowns.logarithmic, done.values, 1)
-    return plain({
-        "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(),
-        "seconds": done.seconds, "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure,
-        "failed": why_it_does_not_fit(done),
-        "measured_rows": [{"file": e.measured.file, **e.measured.counts} for e in problem.done],
-        "measured_values": len(problem.measured), "noise_is_known": problem.noise_is_known, "unknowns": unknowns,
-        "rig": _rigs(done), "correlations": correlations, "curves": curves, "noise": noises,
-        "taken_as_known": done.taken_as_known,
-        "optima": [{"cost": one.cost, "converged": one.converged, "unknowns": dict(zip(names, one.values))}
-                   for one in done.optima],
-        "cannot_be_told": [intervals.text_of(direction, problem.unknowns) for direction in told.directions],
-        "warnings": done.warnings,
-        "candidates": [{"experiment": number + 1, "half_widths": dict(zip(names, widths * per_search))}
-                       for number, widths in done.candidates]})
+    return plain(_outline(
+        problem, seconds=done.seconds, failed=why_it_does_not_fit(done),
+        measured_rows=[{"file": e.measured.file, **e.measured.counts} for e in problem.done],
+        noise_is_known=problem.noise_is_known, unknowns=unknowns, rig=_rigs(done), correlations=correlations, curves=curves,
+        noise=noises, taken_as_known=done.taken_as_known, warnings=done.warnings,
+        optima=[{"cost": one.cost, "converged": one.converged, "unknowns": dict(zip(names, one.values))}
+                for one in done.optima],
+        cannot_be_told=[intervals.text_of(direction, problem.unknowns) for direction in told.directions],
+        candidates=[{"experiment": number + 1, "half_widths": dict(zip(names, widths * per_search))}
+                    for number, widths in done.candidates]))
+
+
+def _write_outline(problem, directory, outline):
+    """calibration.json, and the page, which is made of it."""
+    write_json(os.path.join(directory, "calibration.json"), outline)
+    if problem.values["Output / Report"] == "true":
+        write_page_if_possible(directory)
 
 
 def _numbered(name, ending, i, n):
@@ -97,7 +108,7 @@ def _fitted_scene(done, experiment, directory, n):
 def save(done, directory):
     """Writes the files of a Fit into a directory, its page too. Raises RunError if that is impossible."""
     directory = os.fspath(directory)
-    os.makedirs(directory, exist_ok=True)
+    make_directory(directory)
     problem, n = done.problem, len(done.problem.experiments)
     for experiment, columns in zip(problem.done, done.curves):
         write_whole(os.path.join(directory, _numbered("fit", ".csv", experiment.number, n)),
@@ -111,22 +122,7 @@ def save(done, directory):
         rows = ([name, value, chi_squared, *unknowns] for name, profile in done.profiles().items()
                 for value, chi_squared, unknowns in zip(*profile.values()))
         write_whole(os.path.join(directory, "profile.csv"), csv_text(["unknown", "value", "chi_squared", *done.names], rows))
-    write_whole(os.path.join(directory, "calibration.json"), json.dumps(json_of(done), indent=2, ensure_ascii=False) + "\n")
-    if problem.values["Output / Report"] == "true":
-        write_page_if_possible(directory)
-
-
-def _save_failure(problem, directory, why):
-    """What there is of a fit that has found nothing, so that its page says why."""
-    runs, nothing = problem.runs, dict.fromkeys(("unknowns", "correlations"), {})
-    write_whole(os.path.join(directory, "calibration.json"), json.dumps({
-        "title": problem.values["Title"], "version": _debond.version, "provenance": _debond.provenance(), "seconds": None,
-        "evaluations": runs.n_runs, "failures": runs.n_failures, "last_failure": runs.last_failure, "failed": why,
-        "measured_values": len(problem.measured), **nothing, **dict.fromkeys(
-            ("rig", "curves", "measured_rows", "noise", "taken_as_known", "optima", "cannot_be_told", "warnings", "candidates"), [])},
-        indent=2, ensure_ascii=False) + "\n")
-    if problem.values["Output / Report"] == "true":
-        write_page_if_possible(directory)
+    _write_outline(problem, directory, json_of(done))
 
 
 def lines_of(done):
@@ -160,11 +156,8 @@ def lines_of(done):
 
 def _identity(scene, problem):
     """What the results of a calibration belong to."""
-    parts = [_debond.version, _debond.text_of(scene._entries)]
-    for experiment in problem.done:
-        with open(experiment.measured.file, "rb") as file:
-            parts.append(f"# {experiment.measured.file} {hashlib.sha256(file.read()).hexdigest()}")
-    return "\n".join(parts) + "\n"
+    files = (f"# {e.measured.file} {digest_of(e.measured.file)}" for e in problem.done)
+    return "\n".join([_debond.version, _debond.text_of(scene._entries), *files, ""])
 
 
 def why_it_does_not_fit(done) -> str:
@@ -177,11 +170,9 @@ def why_it_does_not_fit(done) -> str:
     for series in problem.series:
         doubt = unit_doubt(series.name, series.column.unit, series.scale, abs(curve[series.slice]).max(), "fit", 2)
         doubts += doubt and "; " + doubt
-    opposite = problem.measured @ curve < 0
     return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more "
             f"than Calibration / Largest misfit, {100 * largest:.3g} %" + doubts
-            + ("; the measured values have the opposite sign: turn the load round, or the values by a minus before their "
-               "unit in Output / Reference columns, as in [-N m]" if opposite else ""))
+            + ("; a minus before their unit in Reference columns turns values of the opposite sign" if problem.measured @ curve < 0 else ""))
 
 
 def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, say=lambda text: None) -> Dict[str, Any]:
@@ -195,8 +186,8 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     say = heeding(problem.values["Output / Console"], say)
     lock = _debond.claim_directory(problem.experiments[0].scene, _identity(scene, problem), force)
     log = os.path.join(directory, "evaluations.jsonl")
-    if force and os.path.exists(log):
-        os.remove(log)
+    if force:
+        pathlib.Path(log).unlink(missing_ok=True)
     for line in dict.fromkeys(warning for experiment in problem.experiments for warning in experiment.scene.warnings):
         say("warning: " + line)
     for experiment in problem.done:
@@ -206,7 +197,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     try:
         done = fit_problem(problem, say)
     except RunError as error:
-        _save_failure(problem, directory, str(error))
+        _write_outline(problem, directory, _outline(problem, failed=str(error)))
         raise
     save(done, directory)
     for line in lines_of(done):
@@ -214,8 +205,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     fitted = _numbered("fitted", ".prm", 0, len(problem.experiments))
     say(f"Results are in {directory}/calibration.json, the fitted scene is {fitted}")
     del lock
-    why = why_it_does_not_fit(done)
-    if why:
+    if why := why_it_does_not_fit(done):
         raise RunError(why)
     return json_of(done)
 
@@ -236,7 +226,7 @@ def check_lines(problem):
         yield f"{rows_in_words(measured)}; {ranges}" + (f"no closed form: {why_not}" if why_not else "searched with the closed form first")
         if over.is_angle and any(column.is_torque and numpy.sum(values) * experiment.last_angle < 0
                                  for column, values in zip(experiment.columns, measured.values.T)):
-            yield (f"warning: {measured.file}: {_debond.CurveComparison.opposite_sign}")
+            yield f"warning: {measured.file}: {_debond.CurveComparison.opposite_sign}"
     for line in dict.fromkeys(text for e in problem.experiments for text in (*e.scene.warnings, *e.remarks)):
         yield "warning: " + line
 

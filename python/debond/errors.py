@@ -39,11 +39,7 @@ class RunError(RuntimeError):
 
 
 class Interrupted(RuntimeError):
-    """A signal has ended what was at work; the text says how it goes on."""
-
-    def __init__(self, signal: int, text: str):
-        super().__init__(text)
-        self.signal = signal
+    """A signal has ended what was at work: its number, and a text that says how it goes on."""
 
 
 def shortened(text: str) -> str:

@@ -9,6 +9,7 @@ from typing import Iterable, List, Mapping, Union
 import _debond
 
 from .errors import InputError, expect
+from .files import run_in
 from .scene import Result, Scene
 
 DIED = "the process that worked on it died"
@@ -19,7 +20,7 @@ def _collect(executor, function, tasks, results, say):
     futures = {}
     try:
         for name, task in tasks.items():
-            futures[executor.submit(function, task)] = name
+            futures[executor.submit(run_in, os.getcwd(), function, task)] = name
     except BrokenExecutor:
         pass
     for future in as_completed(futures):
@@ -72,10 +73,7 @@ def check_workers(executor, n, what, say=print):
     expect(isinstance(n, int) and n >= 1, what, n, "a whole number, 1 or more")
 
 
-def _run_text(task):
-    """Rows of a scene that is given as a text, and where its files are."""
-    text, work = task
-    os.chdir(work)
+def _run_text(text):
     return Scene(None, text=text).run()
 
 
@@ -92,7 +90,7 @@ def run_many(scenes, executor=None, *, base=None, jobs: int = 1) -> List[Union[R
     for i, one in enumerate(scenes):
         try:
             scene = one if isinstance(one, Scene) else Scene(base, one)
-            scenes[i], tasks[i] = scene, (_debond.text_of(scene._entries), os.getcwd())
+            scenes[i], tasks[i] = scene, _debond.text_of(scene._entries)
         except InputError as error:
             results[i] = error
     results.update(results_of(_run_text, tasks, executor, jobs))

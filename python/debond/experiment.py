@@ -8,7 +8,6 @@ and the same with displacements and forces.
 """
 
 import functools
-import os
 import re
 import threading
 
@@ -19,27 +18,15 @@ import _debond
 from . import measurement
 from .errors import RunError, SceneError
 
-RIG = {"angle_offset": "Angle offset", "slack": "Slack", "compliance": "Machine compliance", "torque_offset": "Torque offset",
-       "drift": "Torque drift", "displacement_offset": "Displacement offset", "displacement_slack": "Displacement slack",
-       "displacement_compliance": "Displacement compliance", "force_offset": "Force offset", "force_drift": "Force drift"}
-# which of them act on positions and on loads, by the unit of these
-_OF_POSITION = {"deg": ("angle_offset", "slack", "compliance"),
-                "mm": ("displacement_offset", "displacement_slack", "displacement_compliance")}
-_OF_LOAD = {"N mm": ("torque_offset", "drift"), "N": ("force_offset", "force_drift")}
+# Entries of Calibration that say what instruments add, by the unit of the positions or loads that they show.
+_RIG = {"deg": ("Angle offset", "Slack", "Machine compliance"), "N mm": ("Torque offset", "Torque drift"),
+        "mm": ("Displacement offset", "Displacement slack", "Displacement compliance"), "N": ("Force offset", "Force drift")}
 
 
-def rigs_of(columns):
-    """For each column the keys of the rig that change what an instrument shows of it: of several in the same unit the first."""
-    keys = [{"position": _OF_POSITION, "load": _OF_LOAD}.get(column.kind, {}).get(column.unit, ()) for column in columns]
-    return [one if one not in keys[:i] else () for i, one in enumerate(keys)]
-
-
-def _is_default(name, text):
-    default = {"Seed": "1", "Noise": "auto"}.get(name, "0")
-    try:
-        return float(text) == float(default)
-    except ValueError:
-        return text == default
+def _rigs_of(columns):
+    """For each column the entries that change what an instrument shows of it: of several in the same unit the first."""
+    rigs = [_RIG.get(column.unit, ()) for column in columns]
+    return [one if one not in rigs[:i] else () for i, one in enumerate(rigs)]
 
 
 @functools.lru_cache(maxsize=16)
@@ -59,12 +46,6 @@ def run_task(task):
     return {column: rows[column] for column in columns}
 
 
-def run_task_in(directory, task):
-    """The same in a process that may have been started elsewhere: files are named relative to `directory`."""
-    os.chdir(directory)
-    return run_task(task)
-
-
 class Experiment:
     """A scene with unknowns, and a measured curve that belongs to it."""
 
@@ -81,7 +62,7 @@ class Experiment:
         self.columns = [measurement.curve_column(self.scene, column.strip(), "Calibration / Curves")
                         for column in (measurement.given(self.values["Calibration / Curves"]) or load).split(",")]
         self.over = measurement.curve_column(self.scene, measurement.given(self.values["Calibration / Over"]) or over, "Calibration / Over")
-        self.rigs = rigs_of([self.over, *self.columns])
+        self.rigs = _rigs_of([self.over, *self.columns])
         self.measured = measured or measurement.read(self.scene, self.values, self.columns, self.over, *self._shifts())
         self.direction = measurement.direction_of(self.measured.over, self.measured.branch) or 1
         self.text = _debond.text_of(without)
@@ -106,7 +87,7 @@ class Experiment:
         """Entries of the scene but for those of Calibration, as pairs (full name, text), and the rig's numbers."""
         entries = self.unknowns.entries(self.number, values)
         every = {**self.values, **entries}
-        rig = {key: float(every["Calibration / " + name]) for key, name in RIG.items()}
+        rig = {name: float(every["Calibration / " + name]) for names in _RIG.values() for name in names}
         return tuple((name, text) for name, text in entries.items() if not name.startswith("Calibration / ")), rig
 
     def warnings(self, values):
@@ -136,8 +117,7 @@ class Experiment:
     def remarks(self):
         """What is to be said before a fit: of the file, and of entries of Calibration that nothing reads."""
         used = set().union(*self.rigs)
-        readers = {RIG[key]: "measured " + {"deg": "angles", "mm": "displacements", "N mm": "torques", "N": "forces"}[unit]
-                   for unit, keys in (*_OF_POSITION.items(), *_OF_LOAD.items()) for key in keys if key not in used}
+        readers = {name: f"what is measured in {unit}" for unit, names in _RIG.items() for name in names if name not in used}
         if self.values["Calibration / Measure"] == "least squares":
             readers["Seed"] = "Measure = e_mp or e_rel"
         if measurement.given(self.values["Calibration / Noise columns"]):
@@ -148,7 +128,7 @@ class Experiment:
         return self.measured.remarks + [
             f"{full} = {own[full]} has no effect in this scene: it is for {reader}"
             for name, reader in readers.items() for full in ["Calibration / " + name]
-            if full in own and not _is_default(name, own[full])]
+            if own.get(full, "0") not in ("0", "auto")]
 
     def _entries_with(self, j):
         """Names of the entries that hold an unknown."""
@@ -158,16 +138,11 @@ class Experiment:
         return {name for name in before if before[name] != after[name]}
 
     def _find_why_no_closed_form(self):
-        why = self.curve.why_no_closed_form
-        if why:
-            return why
-        if any("Implant / Radius" in names for names in self._held_in):
-            return "the radius is an unknown"
-        if not self.over.is_angle:
-            return "closed forms know curves over the angle"
-        if any(column.kind != "load" or column.component not in (2, 5) for column in self.columns):
-            return "closed forms know torque and axial force"
-        return ""
+        others = any(column.kind != "load" or column.component not in (2, 5) for column in self.columns)
+        return (self.curve.why_no_closed_form
+                or "the radius is an unknown" * any("Implant / Radius" in names for names in self._held_in)
+                or "closed forms know curves over the angle" * (not self.over.is_angle)
+                or "closed forms know torque and axial force" * others)
 
     def check_bounds(self):
         """Values that are not allowed within the bounds show now, and not in the middle of a search. Raises SceneError."""
@@ -178,8 +153,6 @@ class Experiment:
                 try:
                     self.curve.check(list(self.unknowns.entries(self.number, values).items()))
                 except SceneError as error:
-                    if error.entry == unknown.entry.name and error.value is not None:  # a value that is not allowed there
-                        raise SceneError(f"{unknown.entry.place}: {error}") from None
                     unknown.entry.refuse(f"at the bound {bound:.6g}: {error}")
 
     def settle(self, values):
@@ -214,7 +187,7 @@ class Experiment:
         compliance = compliance * numpy.exp(numpy.clip(slopes @ (values - centre), -2, 2))
         changes, rig = self.changes(values)
         last = self.last_angle
-        angles = self.measured.over - self.measured.signs[0] * rig["angle_offset"] - self.direction * rig["slack"]
+        angles = self.measured.over - self.measured.signs[0] * rig["Angle offset"] - self.direction * rig["Slack"]
         angles = angles[(angles * last > 0) & (abs(angles) < abs(last))]
         angles = numpy.unique(numpy.concatenate([numpy.linspace(0, last, 101), angles]))[::1 if last > 0 else -1]
         torque, force = self.curve.by_foundation(list(changes), list(compliance), list(angles))
@@ -273,16 +246,11 @@ class Experiment:
 
 
 def _neighbours(x, places):
-    """Rows of a branch between which `places` lie, and the share of the second one."""
+    """Rows of a branch between which `places` lie, and the share of the second one. Of rows that stay in a place, as while it is
+    pressed, the last one is met."""
     sign = -1 if x[-1] < x[0] else 1
-    reached = numpy.maximum.accumulate(sign * x)
-    end = numpy.minimum(numpy.searchsorted(reached, sign * places), len(x) - 1)
-    # of rows that stay in a place, as while it is pressed, the last one
-    last_there = numpy.arange(len(x))
-    for i in numpy.flatnonzero(x[1:] == x[:-1])[::-1]:
-        last_there[i] = last_there[i + 1]
-    stay = numpy.where(sign * places <= sign * x[0], x[0], places)
-    end = numpy.where(abs(x[end] - stay) <= 1e-9 * abs(stay), last_there[end], end)
+    reached, ahead = numpy.maximum.accumulate(sign * x), numpy.maximum(sign * places, sign * x[0])
+    end = numpy.searchsorted(reached, ahead + 1e-9 * abs(ahead), side="right").clip(min(1, len(x) - 1), len(x) - 1)
     begin = numpy.maximum(end - 1, 0)
     width = x[end] - x[begin]
     share = numpy.where(width == 0, 1, numpy.maximum(0, (places - x[begin]) / numpy.where(width == 0, 1, width)))

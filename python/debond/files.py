@@ -1,8 +1,11 @@
 """Files of results, which other programs may read at any time, and what is said while they are made."""
 
 import csv
+import hashlib
 import io
+import json
 import os
+import pathlib
 import sys
 
 from .errors import RunError
@@ -35,9 +38,33 @@ def write_whole(path, text: str) -> None:
             os.fsync(file.fileno())
         os.replace(part, path)
     except OSError as error:
-        if os.path.exists(part):
-            os.remove(part)
+        pathlib.Path(part).unlink(missing_ok=True)
         raise RunError(f"cannot write {path}: {error.strerror}") from None
+
+
+def write_json(path, content) -> None:
+    """The same of what JSON can say."""
+    write_whole(path, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+
+
+def make_directory(directory) -> None:
+    """A directory of results, and those above it. Raises RunError."""
+    try:
+        os.makedirs(directory, exist_ok=True)
+    except OSError as error:
+        raise RunError(f"cannot write {directory}: {error.strerror}") from None
+
+
+def run_in(directory, function, task):
+    """What a function makes of a task, in a process that may have been started elsewhere: files are named relative to this
+    directory."""
+    os.chdir(directory)
+    return function(task)
+
+
+def digest_of(path) -> str:
+    """Stands for the content of a file."""
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
 
 
 def csv_text(header, rows, digits: int = 17) -> str:

@@ -11,7 +11,7 @@
 import functools
 import time
 from dataclasses import dataclass
-from typing import Any, Dict, List
+from typing import Dict, List
 
 import numpy
 from scipy import stats
@@ -38,9 +38,7 @@ LOCAL, FAR = 0.02, 7  # of the largest value, and of the standard deviation of n
 def problem_of(scene, runs=None):
     """The Problem of a scene with unknowns. Raises SceneError."""
     scene = scene if isinstance(scene, Scene) else Scene(scene)
-    entries = scene._entries
-    if not any(entry.name == "Task" and entry.value == "calibrate" for entry in entries):
-        entries = _debond.changed(entries, ["Task=calibrate"])
+    entries = _debond.changed(scene._entries, ["Task=calibrate"])
     variants = variants_of(entries)
     for entry in entries:
         if entry.name == "Output / Directory" and "{{" in entry.value:
@@ -77,49 +75,25 @@ def _from_starts(problem, n_starts, n_best, closed):
 
 
 def _follow(problem, starts, closed):
-    ends = []
-    for start in starts:
-        if closed:
-            problem.settle(problem.unknowns.starts)
-            end = _centred(problem, start)
-        else:
-            end = _with_chosen_steps(problem, start)
-        ends.append(end)
-    return problem.distinct(ends)
+    return problem.distinct([_end_from(problem, start, closed) for start in starts])
 
 
-def _centred(problem, start):
-    """The closed form has the stiffness of the place that it was made exact at: there, until the fit stays there."""
-    end = problem.minimise(start, True)
-    for _ in range(6):
-        if end.why:
-            break
-        before = end.values
-        problem.settle(before)
-        end = problem.minimise(before, True)
-        if end.why:  # the edge of what can be computed has moved over it
-            end = problem.minimise(start, True)
-        if numpy.linalg.norm(end.values - before) <= 1e-8 * numpy.linalg.norm(before):
-            break
-    return end
-
-
-def _with_chosen_steps(problem, start):
-    """With the steps that are right where it starts, and again with those that are right where it has ended, if that is
-    elsewhere."""
-    end, searched = None, problem.unknowns.to_search
-    for _ in range(2):
+def _end_from(problem, first, closed):
+    """The closed form has the stiffness of the place that it was made exact at, runs the steps that are right where they were
+    chosen: from there on to the end, and again from that until it stays."""
+    start, place, end, searched = first, problem.unknowns.starts if closed else first, None, problem.unknowns.to_search
+    for _ in range(7 if closed else 2):
         try:
-            problem.choose_steps(start)
+            (problem.settle if closed else problem.choose_steps)(place)
         except RunError as error:
-            return end or Optimum(start, why=str(error))
-        before, end = end, problem.minimise(start, False, near=end)
-        if end.why and before:
-            return before
-        moved = (searched(end.values) - searched(start)) / intervals.sizes_of(problem.unknowns, start)
-        if end.why or not any(problem.steps.values()) or abs(moved).max() < 0.2:
+            return end or Optimum(first, why=str(error))
+        before, end = end, problem.minimise(start, closed, near=end)
+        if end.why and before:  # of the closed form the edge of what can be computed has moved over it
+            return problem.minimise(first, True) if closed else before
+        moved = abs(searched(end.values) - searched(start)) / intervals.sizes_of(problem.unknowns, start)
+        if end.why or moved.max() < (1e-8 if closed else 0.2) or not (closed or any(problem.steps.values())):
             break
-        start = end.values
+        start = place = end.values
     return end
 
 
@@ -131,13 +105,12 @@ def find_optima(problem, say=lambda text: None):
     closed = not problem.why_no_closed_form
     optima = _from_starts(problem, n_starts, FOLLOWED, True) if closed else []
     by_closed_form = model == "foundation" and closed
-    if optima and not by_closed_form:
+    if closed and not by_closed_form:
         say(f"Closed form: {len(optima)} optim{'um' if len(optima) == 1 else 'a'}, after {time.time() - clock:.2g} s")
+    if optima and not by_closed_form:
         good = [one.values for one in optima if one.cost <= 4 * optima[0].cost + 1e-12][:FOLLOWED_SLOWLY]
         optima = _follow(problem, good, False)
     elif not by_closed_form:
-        if closed:
-            say(f"Closed form: no optimum, after {time.time() - clock:.2g} s; Model = {model} searches alone")
         optima = _from_starts(problem, n_starts, FOLLOWED_SLOWLY if model == "finite elements" else FOLLOWED, False)
     if not optima:
         raise RunError("nothing was found: no unknowns that were tried give a curve. The last reason: " + problem.runs.last_failure)
@@ -218,7 +191,6 @@ class Fit:
         self._find_intervals()
         self._warn()
         self.candidates = self._judge_candidates()
-        self.warnings += known.remarks_of(self)
         self.seconds = time.time() - clock
 
     @functools.cached_property
@@ -228,14 +200,13 @@ class Fit:
 
     names = property(lambda self: self.problem.unknowns.names)
     values = property(lambda self: self._best.values)
-    n_runs = property(lambda self: self.problem.runs.n_runs)
 
     def _find_intervals(self):
         problem, told = self.problem, self.told
         if problem.measure == "least squares":
             cheap = self.closed or not problem.why_no_closed_form
             nearby = intervals.nearby_curves(problem, self._best, self.closed)
-            for j in intervals.profile_ends(problem, told, nearby, self._best, 40 if cheap else 12):
+            for j in intervals.profile_ends(problem, told, nearby, self._best, 400 if cheap else 12):
                 self.warnings.append(f"{self.names[j]}: an end of its interval was not found along the curve, and is that of a linear "
                                      "one")
         self.lower, self.upper = (problem.unknowns.values_of(end) for end in (told.lower, told.upper))
@@ -479,6 +450,3 @@ class Fit:
 
     def __repr__(self) -> str:
         return "Fit(" + ", ".join(f"{name} = {value:.5g}" for name, value in zip(self.names, self.values)) + ")"
-
-    def _repr_html_(self) -> str:
-        return self.table()._repr_html_()

@@ -64,12 +64,9 @@ def inverse(J, scale_limit=1e-10):
 
 
 def _sandwich(problem, J, inverse, noises):
-    """Parts of C from each series."""
-    parts = []
-    for series, own in zip(problem.series, noises):
-        rows = J[series.slice]
-        parts.append(inverse @ (rows.T @ own.covariance_times(rows)) @ inverse)
-    return parts
+    """C, with (J'J)^-1."""
+    parts = ((J[series.slice], own) for series, own in zip(problem.series, noises))
+    return inverse @ sum(rows.T @ own.covariance_times(rows) for rows, own in parts) @ inverse
 
 
 def noises_of(problem, residuals, J):
@@ -95,7 +92,7 @@ def tell(problem, best, derivatives):
     J = derivatives  # those of unknowns at bounds, too: they may go back from there as others change
     noises = noises_of(problem, residuals, J)
     unlimited, finite, told = inverse(J)
-    k, variance = len(at), sum(_sandwich(problem, J, finite, noises))
+    k, variance = len(at), _sandwich(problem, J, finite, noises)
     quantiles, half_widths = numpy.full(k, stats.norm.isf(0.5 * (1 - CONFIDENCE))), numpy.full(k, numpy.inf)
     if problem.measure != "least squares":
         estimates = _magnitude_estimates(problem, J, noises, numpy.random.default_rng(int(problem.values["Calibration / Seed"])))
@@ -152,33 +149,100 @@ def text_of(direction, unknowns):
     return text + f"the curves stay the same if they change together, {moves}; fix one of them ({same})"
 
 
-def squares_of(problem, best):
-    residuals = problem.weights * (best.curve - problem.measured)
-    return residuals @ residuals
-
-
 def _growth_at_end(problem, told, J, j):
     """What the sum of squares has grown by where the interval of the unknown `j` ends, with derivatives J there; 0 if nothing
     tells it there."""
-    _, finite, _ = inverse(J)
+    finite = inverse(J)[1]
     if not finite[j, j] > 0:
         return 0
-    directions = [J[series.slice] @ finite[:, j] for series in problem.series]
-    variance = sum(direction @ own.covariance_times(direction[:, None])[:, 0] for direction, own in zip(directions, told.noises))
-    return told.quantiles[j] ** 2 * variance / finite[j, j]
+    return told.quantiles[j] ** 2 * _sandwich(problem, J, finite, told.noises)[j, j] / finite[j, j]
 
 
-class _End:
-    """An end of the interval of one unknown that is being looked for: the sum of squares as a function of that unknown, the
-    others following."""
+class _Profile:
+    """The least sum of squares along one unknown, the others following. Searches are generators, which yield a place and are sent
+    the residuals there, so that all of them go on at once; None where there is no curve."""
 
-    def __init__(self, j, sign, start, target, limit):
-        self.j, self.sign, self.target, self.limit = j, sign, target, limit
-        self.inside, self.beyond = (0.0, 0.0), None  # (distance, sqrt of the growth over its target) below and above 1
-        self.at, self.distance = start, 0.0
-        self.best = numpy.inf
-        self.n_inside = 0  # places in turn that are
-        self.done = False
+    def __init__(self, problem, told, best, slopes):
+        unknowns = problem.unknowns
+        self.problem, self.told, self.slopes = problem, told, slopes
+        self.centre, self.lower, self.upper = (unknowns.to_search(v) for v in (best.values, unknowns.lower, unknowns.upper))
+        self.finite = inverse(told.derivatives)[1]
+        residuals = problem.weights * (best.curve - problem.measured)
+        self.least = residuals @ residuals
+
+    def _derivatives(self, place):
+        if self.slopes is None:  # too dear: those of the best fit
+            return self.told.derivatives
+        return self.problem.weights[:, None] * self.slopes(self.problem.unknowns.from_search(place))
+
+    def _follow(self, j, place, target):
+        """The others go to where the squares are least: that place, by how much these have grown, and the growth at the end."""
+        residuals, gain = (yield place), 0
+        if residuals is None:
+            return None
+        for _ in range(10):
+            try:
+                J = self._derivatives(place)
+            except RunError:
+                break
+            target, slope = _growth_at_end(self.problem, self.told, J, j) or target, J.T @ residuals
+            free = ~(((place <= self.lower) & (slope > 0)) | ((place >= self.upper) & (slope < 0)))  # at bounds they cannot follow
+            free[j] = False
+            step = -numpy.linalg.lstsq(J[:, free], residuals, rcond=_NEVER)[0]
+            gain = -(residuals @ (J[:, free] @ step))
+            if gain < 0.03 * target:
+                break
+            for share in (1,) if self.slopes is None else (1, 0.25, 0.06, 0.015):
+                other = place.copy()
+                other[free] = numpy.clip(place[free] + share * step, self.lower[free], self.upper[free])
+                there = yield other
+                if there is not None and there @ there < residuals @ residuals:
+                    place, residuals = other, there
+                    break
+            else:
+                gain = 0
+                break
+        growth = residuals @ residuals - self.least - (gain if self.slopes is None else 0)
+        return place, max(growth, 1e-12 * target), target
+
+    def end(self, j, sign):
+        """How far from the best value the interval ends. The square root of the growth is nearly linear in the distance: a secant
+        finds where it is that of the target, between the last places on either side."""
+        limit = (self.upper[j] - self.centre[j]) if sign > 0 else (self.centre[j] - self.lower[j])
+        target, column = self.told.half_widths[j] ** 2 / self.finite[j, j], self.finite[:, j] / self.finite[j, j]
+        inside, beyond, n_inside = (0.0, 0.0), None, 0  # (distance, sqrt of the growth over its target) below and above 1
+        place, distance, next_one = self.centre, 0.0, min(self.told.half_widths[j], limit)
+        while True:
+            # the others go along as the linear curve says, from where they are
+            place = numpy.clip(place + column * sign * (next_one - distance), self.lower, self.upper)
+            distance = next_one
+            place[j] = self.centre[j] + sign * distance
+            found = yield from self._follow(j, place, target)
+            if found is None:  # there is no curve so far away
+                beyond, next_one = (distance, numpy.inf), 0.5 * (inside[0] + distance)
+                continue
+            place, growth, target = found
+            root = numpy.sqrt(growth / target)
+            if abs(root - 1) < 0.03 or (distance >= limit and root < 1):
+                return min(distance / root, limit) if distance < limit or root > 1 else limit
+            if root < 1:
+                inside, n_inside = max(inside, (distance, root)), n_inside + 1
+            else:
+                beyond, n_inside = min(beyond or (numpy.inf, 0), (distance, root)), 0
+            if n_inside == 4:  # what was beyond was judged before the others had followed
+                beyond, n_inside = None, 0
+            next_one = _secant(inside, beyond, limit)
+
+
+def _secant(inside, beyond, limit):
+    """The place where a line through both is 1."""
+    a, root = inside
+    if beyond is None:
+        return min(a * numpy.clip(1 / root, 1.1, 2.5), limit)
+    b, other = beyond
+    if numpy.isinf(other):
+        return 0.5 * (a + b)
+    return numpy.clip(a + (1 - root) / (other - root) * (b - a), 0.9 * a + 0.1 * b, 0.1 * a + 0.9 * b)  # it moves from both
 
 
 def nearby_curves(problem, best, closed):
@@ -200,132 +264,25 @@ def nearby_curves(problem, best, closed):
     return curves, lambda place: best.derivatives + problem.derivatives(place, True) - slopes
 
 
-def profile_ends(problem, told, nearby, best, rounds):
+def profile_ends(problem, told, nearby, best, n_places):
     """Ends of the intervals along the curve that is not linear in the unknowns, found from those of the linear one. `nearby`:
-    see nearby_curves(). All ends go on at once, so that their runs are made at the same time. Returns the indices of the unknowns
-    that have an end of the linear curve, as the other one was not found in so many rounds."""
-    unknowns = problem.unknowns
-    centre, lower, upper = (unknowns.to_search(v) for v in (best.values, unknowns.lower, unknowns.upper))
-    J = told.derivatives
-    _, finite, _ = inverse(J)
-    ends = []
+    see nearby_curves(). Returns the indices of the unknowns that have an end of the linear curve, as the other one was not found
+    from so many places."""
+    curves_at, slopes = nearby
+    profile = _Profile(problem, told, best, slopes)
     # exact data leave rounding only
-    for j in numpy.flatnonzero(numpy.isfinite(told.half_widths) & (told.half_widths > 1e-9 * sizes_of(unknowns, best.values))):
-        growth = told.half_widths[j] ** 2 / finite[j, j]  # of the sum of squares at the end of the linear curve
-        for sign in (-1, 1):
-            limit = (upper[j] - centre[j]) if sign > 0 else (centre[j] - lower[j])
-            end = _End(j, sign, centre, growth, limit)
-            _move(end, min(told.half_widths[j], limit), centre, finite, lower, upper)
-            ends.append(end)
-    for _ in range(rounds):
-        active = [end for end in ends if not end.done]
-        if not active:
-            break
-        if nearby[1] is None:
-            _advance(problem, best, J, active, (centre, finite, lower, upper), nearby[0])
-        for end in active if nearby[1] is not None else ():
-            _advance_closely(problem, told, best, end, (centre, finite, lower, upper), nearby)
-    for end in ends:
-        if end.done:
-            (told.lower if end.sign < 0 else told.upper)[end.j] = centre[end.j] + end.sign * end.distance
-    return sorted({end.j for end in ends if not end.done})
-
-
-def _move(end, distance, centre, finite, lower, upper):
-    """To this distance from the best value; the others go along as the linear curve says, from where they are."""
-    column = finite[:, end.j] / finite[end.j, end.j]
-    end.at = numpy.clip(end.at + column * end.sign * (distance - end.distance), lower, upper)
-    end.at[end.j] = centre[end.j] + end.sign * distance
-    end.distance, end.best = distance, numpy.inf
-
-
-def _advance_closely(problem, told, best, end, frame, nearby):
-    """One round: the others go to where the squares are least, with derivatives that are taken anew on the way."""
-    centre, _, lower, upper = frame
-    curves, slopes = nearby
-
-    def residuals_at(place):
-        curve = curves([problem.unknowns.from_search(place)])[0]
-        return None if curve is None else problem.weights * (curve - problem.measured)
-
-    residuals = residuals_at(end.at)
-    if residuals is None:  # there is no curve so far away
-        end.beyond = (end.distance, numpy.inf)
-        _move(end, 0.5 * (end.inside[0] + end.distance), *frame)
-        return
-    for _ in range(10):
-        squares = residuals @ residuals
-        try:
-            J = problem.weights[:, None] * slopes(problem.unknowns.from_search(end.at))
-        except RunError:
-            break
-        end.target = _growth_at_end(problem, told, J, end.j) or end.target
-        slope = J.T @ residuals
-        held = ((end.at <= lower) & (slope > 0)) | ((end.at >= upper) & (slope < 0))  # at bounds: they cannot follow
-        held[end.j] = True
-        step = -numpy.linalg.lstsq(J[:, ~held], residuals, rcond=_NEVER)[0]
-        if -(residuals @ (J[:, ~held] @ step)) < 0.03 * end.target:
-            break
-        for share in (1, 0.25, 0.06, 0.015):
-            place = end.at.copy()
-            place[~held] = numpy.clip(place[~held] + share * step, lower[~held], upper[~held])
-            others = residuals_at(place)
-            if others is not None and others @ others < squares:
-                end.at, residuals = place, others
-                break
-        else:
-            break
-    _judge(end, max(residuals @ residuals - squares_of(problem, best), 1e-12 * end.target), frame)
-
-
-def _advance(problem, best, J, ends, frame, nearby):
-    """One round: the others go to where the linear curve has the least squares; if they stay, the end moves on."""
-    centre, finite, lower, upper = frame
-    curves = nearby([problem.unknowns.from_search(end.at) for end in ends])
-    for end, curve in zip(ends, curves):
-        if curve is None:  # there is none so far away
-            end.beyond = (end.distance, numpy.inf)
-            _move(end, 0.5 * (end.inside[0] + end.distance), *frame)
-            continue
-        residuals = problem.weights * (curve - problem.measured)
-        squares = residuals @ residuals
-        slope = J.T @ residuals
-        held = ((end.at <= lower) & (slope > 0)) | ((end.at >= upper) & (slope < 0))  # at bounds: they cannot follow
-        held[end.j] = True
-        step = -numpy.linalg.lstsq(J[:, ~held], residuals, rcond=_NEVER)[0]
-        gain = -(residuals @ (J[:, ~held] @ step)) if squares < end.best else 0
-        end.best = min(end.best, squares)
-        if gain > 0.03 * end.target:
-            end.at = end.at.copy()
-            end.at[~held] = numpy.clip(end.at[~held] + step, lower[~held], upper[~held])
-            continue
-        _judge(end, max(end.best - squares_of(problem, best) - gain, 1e-12 * end.target), frame)
-
-
-def _judge(end, growth, frame):
-    """The square root of the growth is nearly linear in the distance: a secant finds where it is that of the target, between the
-    last places on either side."""
-    root = numpy.sqrt(growth / end.target)
-    if abs(root - 1) < 0.03 or (end.distance >= end.limit and root < 1):
-        end.done = True
-        end.distance = min(end.distance / root, end.limit) if end.distance < end.limit or root > 1 else end.limit
-        return
-    if root < 1:
-        end.inside = max(end.inside, (end.distance, root))
-        end.n_inside += 1
-    else:
-        end.beyond = (end.distance, root) if end.beyond is None else min(end.beyond, (end.distance, root))
-        end.n_inside = 0
-    if end.n_inside == 4:  # what was beyond was judged before the others had followed
-        end.beyond, end.n_inside = None, 0
-    (a, root_a), b = end.inside, end.beyond
-    if b is None:
-        target = min(a * numpy.clip(1 / root_a, 1.1, 2.5), end.limit)
-    elif numpy.isfinite(b[1]):  # never so close to an end that it does not move
-        target = numpy.clip(a + (1 - root_a) / (b[1] - root_a) * (b[0] - a), 0.9 * a + 0.1 * b[0], 0.1 * a + 0.9 * b[0])
-    else:
-        target = 0.5 * (a + b[0])
-    _move(end, target, *frame)
+    is_wide = numpy.isfinite(told.half_widths) & (told.half_widths > 1e-9 * sizes_of(problem.unknowns, best.values))
+    searches = {(j, sign): profile.end(j, sign) for j in numpy.flatnonzero(is_wide) for sign in (-1, 1)}
+    places = {key: next(search) for key, search in searches.items()}
+    for _ in range(n_places):
+        curves = curves_at([problem.unknowns.from_search(place) for place in places.values()])
+        for (j, sign), curve in zip(list(places), curves):
+            try:
+                places[j, sign] = searches[j, sign].send(None if curve is None else problem.weights * (curve - problem.measured))
+            except StopIteration as end:
+                del places[j, sign]
+                (told.lower if sign < 0 else told.upper)[j] = profile.centre[j] + sign * end.value
+    return sorted({j for j, _ in places})
 
 
 def _magnitude_estimates(problem, J, noises, generator, n_draws=50, n_iterations=30):

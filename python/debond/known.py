@@ -1,5 +1,4 @@
-"""What a fit has taken as known: by how much its answer changes if that is wrong, and what the rig seems to do that the scene does
-not say."""
+"""What a fit has taken as known: by how much its answer changes if that is wrong."""
 
 import re
 
@@ -7,10 +6,10 @@ import numpy
 
 import _debond
 
-from . import noise
 from .errors import RunError, SceneError
-from .experiment import RIG, Experiment
+from .experiment import Experiment
 from .measurement import given
+from .page_data import numbers
 
 # Numbers of a test, without those of meshes and of what is drawn by chance; the scene says which of them it does not read.
 _NUMBERS = re.compile("Implant / (Radius|Inner radius|Cap radius|Height|Taper angle|Pitch|Thread depth|Size)|Bone / Outer radius|(Bone|Implant) / (Young modulus|Poisson ratio)"
@@ -34,16 +33,15 @@ def _unit_of(entry, values):
 
 def _changed_number(entry, text):
     """(change in words, new text) of a number; nothing of what is none."""
-    if _is_zero(text) or not text:
+    known = numbers(text.split(","))
+    if not text or known == [0]:
         return ()
     if entry.endswith(("Value", "Interference")):
         return "+1 %", f"({text}) * 1.01"
-    try:
-        numbers = [float(part) for part in text.split(",")]
-    except ValueError:
+    if not numpy.isfinite(known).all():
         return ()
-    percent = -1 if entry.endswith(_SHARES) and 1.01 * numbers[0] > 1 else 1
-    return f"{percent:+} %", ", ".join(repr((1 + 0.01 * percent) * number) for number in numbers)
+    percent = -1 if entry.endswith(_SHARES) and 1.01 * known[0] > 1 else 1
+    return f"{percent:+} %", ", ".join(repr((1 + 0.01 * percent) * one) for one in known)
 
 
 def _changes(fit):
@@ -55,8 +53,8 @@ def _changes(fit):
     for entry, text in values.items():
         if _NUMBERS.match(entry) and entry not in held and not _moves_along(experiment, entry):
             result += [(entry, text, _unit_of(entry, values), *change) for change in [_changed_number(entry, given(text))] if change]
-    for key, size, part in _changes_of_rig(fit, experiment):
-        entry = "Calibration / " + RIG[key]
+    for name, size, part in _changes_of_rig(fit, experiment):
+        entry = "Calibration / " + name
         if entry not in held:
             unit = _debond.unit_of(entry)
             result.append((entry, values[entry], unit, f"+{size:.2g} {unit}, {part}", repr(float(values[entry]) + float(size))))
@@ -71,7 +69,7 @@ def _moves_along(experiment, entry):
 
 
 def _changes_of_rig(fit, experiment):
-    """(key, change, what it is 1 % of) of all that instruments of this experiment may show."""
+    """(entry, change, what it is 1 % of) of all that instruments of this experiment may show."""
     own = [series for series in fit.problem.series if series.experiment is experiment]
     curves = [fit._best.curve[series.slice] for series in own]
     largest = [curve[numpy.argmax(abs(curve))] for curve in curves]
@@ -79,22 +77,15 @@ def _changes_of_rig(fit, experiment):
     for series, curve, most in reversed(list(zip(own, curves, largest))):
         if series.column.kind == "load":  # the first one; on the way up, where positions matter
             load, name, half = most, _NAMES[series.column.unit], numpy.argmax(abs(curve) >= 0.5 * abs(most))
-    for i, (column, keys) in enumerate(zip((experiment.over, *experiment.columns), experiment.rigs)):
-        if not keys:
+    for i, (column, names) in enumerate(zip((experiment.over, *experiment.columns), experiment.rigs)):
+        if not names:
             continue
         size = 0.01 * (largest[i - 1] if i > 0 else experiment.measured.over[half])
         part = f"1 % of the largest {_NAMES[column.unit]}" if i > 0 else f"1 % of the {_NAMES[column.unit]} at half the largest {name}"
         if column.kind == "load":
-            yield from ((key, size, part) for key in keys)
+            yield from ((name, size, part) for name in names)
         elif load != 0:
-            yield from zip(keys, (size, abs(size), abs(2 * size / load)), [part] * 3)
-
-
-def _is_zero(text):
-    try:
-        return float(text) == 0
-    except ValueError:
-        return False
+            yield from zip(names, (size, abs(size), abs(2 * size / load)), [part] * 3)
 
 
 def _change_of_curve(fit, entry, text):
@@ -173,38 +164,3 @@ def table_of(fit):
         if any(effect.values()) or (abs(change_of_curve).max() > 1e-6 * largest.max() and set(effect.values()) == {None}):
             table.append({"entry": entry, "value": value, "unit": unit, "change": change, "effect": effect})
     return table
-
-
-def remarks_of(fit):
-    """What the rig seems to do that the scene does not say."""
-    return [remark for remark in (_slack_remark(fit, series) for series in fit.problem.series) if remark]
-
-
-def _slack_remark(fit, series):
-    """Proposes slack where the torque does not rise at the start: a line that starts at an angle s fits the rise better than one
-    from zero, by more than the noise."""
-    experiment = series.experiment
-    rig = experiment.changes(fit.values)[1]
-    if not (experiment.over.is_angle and series.column.is_torque) or rig["slack"] != 0 or rig["angle_offset"] != 0:
-        return ""
-    measured, x = fit.problem.measured[series.slice], abs(experiment.measured.over)
-    torque = measured * numpy.sign(measured[numpy.argmax(abs(measured))])
-    n = int(numpy.argmax(torque > 0.5 * torque.max()))
-    if n < 8:
-        return ""
-    x, torque = x[:n], torque[:n]
-    places = numpy.linspace(0, x[-1], 101)[:-5]
-
-    def rest(s):
-        hinge = numpy.maximum(0, x - s)
-        return torque - hinge * (hinge @ torque) / (hinge @ hinge)
-
-    costs = numpy.array([numpy.sum(rest(s) ** 2) for s in places])
-    best = int(numpy.argmin(costs))
-    own = noise.estimate(rest(places[best]), numpy.maximum(0, x - places[best])[:, None], [slice(0, n)])
-    noise_variance = costs[best] / max(1, n - 2) * own.rows_per_value
-    if best < 2 or costs[0] - costs[best] < 25 * noise_variance:
-        return ""
-    s = places[best]
-    return (f"{series.name} does not rise until {s:.2g} deg: if that is slack of the machine, Calibration / Slack = "
-            f"<<{s:.2g} in 0..{2 * s:.2g}>> finds it")

@@ -84,10 +84,7 @@ def split(line, separator):
 
 def filled(items):
     """The items without empty ones at the end."""
-    n = len(items)
-    while n and not items[n - 1]:
-        n -= 1
-    return items[:n]
+    return items[:max((i for i, item in enumerate(items, 1) if item), default=0)]
 
 
 def _shape_of(items):
@@ -206,11 +203,9 @@ class Table:
             what_to_do = ": if decimals have commas, separate the columns with semicolons"
         first, n_first = self.rows[0][0], len(filled(self.rows[0][1]))
         line, above = self.line_above or (0, [])
-        if not self.names and len(above) > 1 and any(map(unit_in, above)):
-            number = next((item for item in above if value_of(item) is not None), None)
-            if number and len(filled(above)) == n_first:
-                self.refuse(f"line {line} has '{number}' among the names or units of columns: expected names or units only")
-            self.refuse(f"line {line} names {len(filled(above))} columns, line {first} has {n_first} values{what_to_do}")
+        names = [item for item in above if item and value_of(item) is None]
+        if not self.names and len(above) > 1 and any(map(unit_in, names)):
+            self.refuse(f"line {line} names {len(names)} columns, line {first} has {n_first} values{what_to_do}")
         if self.separator != ",":
             return
         for number, items in self.rows:
@@ -242,8 +237,7 @@ class Table:
         """The columns that there are, for messages."""
         if not self.names:
             above = shortened(self.separator.join(self.line_above[1])) if self.line_above else ""
-            above = above and (f", since the line above the numbers, '{above}', does not name as many (blanks in names are "
-                               "taken for separators where blanks separate)")
+            above = above and f", since the line above the numbers, '{above}', does not name as many"
             return f"this file has {self.n_columns} columns without names{above}"
         why = next(filter(None, map(why_ambiguous, self.names)), "")
         return "the columns of this file are '" + "', '".join(self.names) + "'" + (f" ({why})" if why else "")

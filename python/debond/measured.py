@@ -13,6 +13,7 @@ Latin-1. Of a workbook (xlsx) the first sheet with numbers that is not hidden is
 """
 
 import io
+import json
 import os
 import re
 import sys
@@ -75,17 +76,11 @@ def _recognised_column(table, name, quantity, example, columns_entry):
 
 def _text_of(content, refuse):
     """The text of a file of bytes, with plain ends of lines."""
-    zeros = [byte == 0 for byte in content[:4]]
-    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        encoding = "utf-16"
-    elif zeros in ([False, True] * 2, [True, False] * 2):  # two letters without the mark
-        encoding = "utf-16-be" if zeros[0] else "utf-16-le"
-    else:
-        encoding = "utf-8"
+    encoding = json.detect_encoding(content)  # also without a mark
     try:
         text = content.decode(encoding)
     except UnicodeDecodeError:
-        if encoding != "utf-8":
+        if not encoding.startswith("utf-8"):
             refuse(f"this text begins as {encoding.upper()}, but is none")
         text = content.decode("latin-1")  # German Excel, for one, writes it where it says CSV
     if re.search("[\0-\x08\x0b\x0e-\x1f\x7f]", text):
@@ -119,8 +114,6 @@ def _sheets_of(content, refuse):
 
 
 def _read_bytes(filename, refuse):
-    if os.path.isdir(filename):
-        refuse("this is a directory")
     try:
         with open(filename, "rb") as file:  # some have no end, and no size that could be asked for
             content = file.read(_LARGEST_MB * 1000000 + 1)
@@ -137,8 +130,6 @@ def texts_of(filename, refuse) -> List[Tuple[str, str]]:
     content = _read_bytes(filename, refuse)
     if content.startswith(b"\xd0\xcf\x11\xe0"):
         refuse("this is a workbook of Excel before 2007 (.xls), or one with a password: save it as .xlsx without one, or as CSV")
-    if b"application/vnd.oasis.opendocument" in content[:100]:
-        refuse("this is a workbook of LibreOffice (.ods): save it as .xlsx or as CSV")
     return _sheets_of(content, refuse) if content.startswith(b"PK\x03\x04") else [("", _text_of(content, refuse))]
 
 

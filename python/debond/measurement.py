@@ -8,8 +8,7 @@ import _debond
 
 from . import measured
 from .errors import InputError, RunError
-
-ENTRY = "Output / Reference curve"
+from .measured import CURVE_ENTRY as ENTRY
 
 
 @dataclass(frozen=True)

@@ -113,17 +113,11 @@ class Noise:
         return float(numpy.exp(optimize.brentq(beyond, limit - 30, limit, xtol=1e-6)))
 
 
-def _basis(derivatives):
-    """Orthonormal columns that span those of `derivatives`, without what says nothing."""
-    basis, sizes, _ = linalg.svd(derivatives, full_matrices=False)
-    return basis[:, sizes > 1e-9 * max(sizes.max(initial=0), 1e-300)]
-
-
 def estimate(residuals, derivatives, parts, longest=None):
     """The Noise of `residuals` (n), what a fit has left, whose curve has these `derivatives` (n x k) by what was fitted.
     `parts`: slices of rows without a gap. Columns that say nothing may be there. `longest`: L; if it is not given that of a random
     walk from zero on, what moves all rows alike having its variance, n^2/3."""
-    basis = _basis(derivatives)
+    basis = linalg.orth(derivatives, rcond=1e-9)  # without what says nothing
     for _ in range(2):  # what derivatives explain says nothing of the noise; of exact data it is all but rounding
         residuals = residuals - basis @ (basis.T @ residuals)
     size, (n, k) = max(numpy.linalg.norm(residuals), 1e-150), basis.shape
@@ -154,7 +148,7 @@ def lack_of_fit(residuals, derivatives, parts, n_waves=8):
         return numpy.nan, numpy.nan
     place = (numpy.arange(n) + 0.5) / n
     waves = numpy.cos(numpy.pi * place[:, None] * numpy.arange(1, n_waves + 1))
-    basis = _basis(derivatives)
+    basis = linalg.orth(derivatives, rcond=1e-9)
     k = basis.shape[1]
     noise = estimate(residuals, numpy.column_stack([basis, waves]), parts, n / (numpy.pi * n_waves))
     white, _ = noise.whitened(numpy.column_stack([basis, waves, residuals]))

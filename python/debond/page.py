@@ -6,9 +6,9 @@ A page needs no other file and no network. It is written whole or not at all. Ne
 import os
 import sys
 
+from debond import page_data
 from debond.files import say, write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
-from debond.page_data import NoResults, members, number, short, shown, split_unit, symbols, table_of, with_unit
 from debond.page_run import context_of_run
 from debond.page_specimens import context_of_specimens
 
@@ -29,12 +29,10 @@ def page_of(directory):
             templates = jinja2.FileSystemLoader(os.path.join(os.path.dirname(__file__), "templates"))
             environment = jinja2.Environment(loader=templates, autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                              undefined=jinja2.StrictUndefined)
-            environment.globals.update(members=members, number=number, short=short, shown=shown, split_unit=split_unit,
-                                       table_of=table_of, with_unit=with_unit)
-            environment.filters["symbols"] = lambda text: markupsafe.Markup(symbols(str(markupsafe.escape(text))))
+            environment.globals.update(vars(page_data))
+            environment.filters["symbols"] = lambda text: markupsafe.Markup(page_data.symbols(str(markupsafe.escape(text))))
             return environment.get_template(template).render(context(directory))
-    raise NoResults(f"there are no results in '{directory}' (summary.json, torque.csv, reactions.csv, study.csv, "
-                    "calibration.json or specimens.json)")
+    raise page_data.NoResults(f"there are no results in '{directory}', none of {', '.join(kind[0] for kind in KINDS)}")
 
 
 def write_page(directory):

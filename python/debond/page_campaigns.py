@@ -53,12 +53,7 @@ def with_reference(plot, axes, directories, n_drawn, n, what):
         if not any(series["name"] == "reference" for series in plot.series):
             plot.add("reference", "points", *reference_of(one, axes), "#555555")
     context = plot.context()
-    if context:
-        context["many"] = n_drawn > MOST_COLOURS
-        lines = [one["name"] for one in context["shapes"] if one["kind"] == "line"]
-        context["notes"] = [f"{n_drawn} of {n} {what} are drawn."] * (n_drawn < n) + context["many"] * [
-            f"The colours go from dark to light in the order of the {what}, from {lines[0]} to {lines[-1]}."]
-    return context
+    return context and {**context, "many": n_drawn > MOST_COLOURS, "drawn": n_drawn, "of": n, "what": what}
 
 
 def bands_of_ensemble(directory, table, variants):

@@ -123,4 +123,4 @@ class Plot:
             for one in self.series if one["kind"] in ("line", "points")]}
         return {"x": self.x, "y": self.y, "about": self.about, "shapes": shapes, "levels": self.levels, "data": data,
                 "labels": self.placed_labels(lambda x: (x - left) * fx, lambda y: (high - y) * fy),
-                "ticks": (ticks(left, right), ticks(low, high, most=7 * self.high / HIGH)), "many": False, "notes": []}
+                "ticks": (ticks(left, right), ticks(low, high, most=7 * self.high / HIGH)), "many": False, "drawn": 0, "of": 0}

@@ -150,10 +150,7 @@ def maps_of_quantity(grid, places, maps, words, unit, colours, least, most):
             before, is_round = (place, values), grid.is_round(values)
             figures.append({"place": place, "event": event, "low": short(low, 3), "high": with_unit(high, unit, 3),
                             "round": is_round, "image": picture(grid, values, least, most, palette, is_round)})
-    if len(notes) == 1 and not figures:
-        notes = [f"It {text}{' at all of these times' * (len(maps) > 1)}." for text in notes]
-    else:
-        notes = [f"At {', '.join(at)} it {text}." for text, at in notes.items()]
+    notes = [f"At {', '.join(at)} it {text}." for text, at in notes.items()]
     if figures and colours is BLUES and least < 0:
         notes.append("Red is tension.")
     return {"words": words, "unit": unit, "figures": figures, "notes": notes,

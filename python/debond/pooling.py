@@ -11,7 +11,7 @@ intervals from the normal distribution are too narrow (IntHout et al., BMC Medic
 from dataclasses import dataclass
 
 import numpy
-from scipy import stats
+from scipy import optimize, stats
 
 
 @dataclass
@@ -33,13 +33,12 @@ def _weighted(y, variance, tau_squared):
 def tau_squared_of(y, variance) -> float:
     """By restricted maximum likelihood, from values (n >= 2) and their variances (n): the root of its derivative,
     w = 1/(variance + tau^2),   tau^2 = sum w^2 ((y - mu)^2 - variance) / sum w^2 + 1 / sum w,   or 0."""
-    result = max(0.0, numpy.var(y, ddof=1) - variance.mean())
-    for _ in range(10000):
-        w, mu = _weighted(y, variance, result)
-        before, result = result, max(0.0, w**2 @ ((y - mu) ** 2 - variance) / (w @ w) + 1 / w.sum())
-        if abs(result - before) <= 1e-13 * (result + variance.mean()):
-            break
-    return result
+
+    def excess(tau_squared):
+        w, mu = _weighted(y, variance, tau_squared)
+        return w**2 @ ((y - mu) ** 2 - variance) / (w @ w) + 1 / w.sum() - tau_squared
+
+    return 0.0 if excess(0) <= 0 else optimize.brentq(excess, 0, 2 * numpy.ptp(y) ** 2 + 2 * variance.max(), rtol=1e-13)
 
 
 def pool(y, sd) -> Pooled:

@@ -17,7 +17,8 @@ from scipy.stats import qmc
 
 from .errors import RunError, SceneError
 from .measurement import stated_noise
-from .experiment import Experiment, run_task, run_task_in
+from .experiment import Experiment, run_task
+from .files import run_in
 
 SMOOTH = 1e-3  # below this difference magnitudes are smoothed, for the measures e_mp and e_rel
 
@@ -37,9 +38,7 @@ class Runs:
                 one = json.loads(line)
                 rows = one["rows"]
                 self.known[one["key"]] = rows if isinstance(rows, str) else {name: numpy.array(v) for name, v in rows.items()}
-            if whole != text:
-                with open(filename, "w", encoding="utf-8") as file:
-                    file.write(whole)
+            os.truncate(filename, len(whole.encode()))
 
     @staticmethod
     def key(task):
@@ -49,20 +48,15 @@ class Runs:
         """Of each task its rows, or text: why there are none. Tasks that are new run at the same time."""
         keys = [self.key(task) for task in tasks]
         new = {key: task for key, task in zip(keys, tasks) if key not in self.known}
-        if len(new) < 2 or (self.executor is None and self.threads == 1):
-            for key, task in new.items():
-                self._remember(key, run_task(task))
-        else:
-            self._run_elsewhere(new)
+        is_alone = len(new) < 2 or (self.executor is None and self.threads == 1)
+        for key, rows in zip(new, map(run_task, new.values()) if is_alone else self._run_elsewhere(new.values())):
+            self._remember(key, rows)
         return [self.known[key] for key in keys]
 
     def _run_elsewhere(self, tasks):
-        if self.executor is None:
-            self.executor = ThreadPoolExecutor(self.threads)
+        self.executor = self.executor or ThreadPoolExecutor(self.threads)
         try:
-            results = self.executor.map(functools.partial(run_task_in, os.getcwd()), tasks.values())
-            for key, rows in zip(tasks, results):
-                self._remember(key, rows)
+            yield from self.executor.map(functools.partial(run_in, os.getcwd(), run_task), tasks)
         except Exception as error:  # a worker that has died, say: the runs before are remembered
             raise RunError(f"the executor failed: {type(error).__name__}: {error}") from error
 
@@ -166,18 +160,10 @@ class Problem:
     def curves(self, places, closed):
         """The predicted values (N) at each of several places, None where there are none."""
         if closed:
-            return [self._closed(values) for values in places]
-        tasks, owners = [], []
-        for values in places:
-            try:
-                tasks.append([experiment.task(values, self.steps[id(experiment)]) for experiment in self.done])
-            except SceneError as error:
-                self._failed(error)
-                tasks.append(None)
+            return [self._joined(lambda e: e.by_closed_form(values)) for values in places]
+        tasks = [self._of_done(lambda e: e.task(values, self.steps[id(e)])) for values in places]
         rows = iter(self.runs.rows([task for group in tasks if group for task in group]))
-        for values, group in zip(places, tasks):
-            owners.append(None if group is None else self._seen(values, [next(rows) for _ in group]))
-        return owners
+        return [group and self._seen(values, [next(rows) for _ in group]) for values, group in zip(places, tasks)]
 
     def finer_curve(self, values):
         """The predicted values (N) of runs with steps half as wide; None for closed forms. Raises RunError."""
@@ -186,23 +172,23 @@ class Problem:
         tasks = [e.task(values, e.halved(self.steps[id(e)]) if e.is_finite_elements else ()) for e in self.done]
         return self._seen(values, self.runs.rows(tasks))
 
-    def _failed(self, error):
-        self.runs.n_failures += 1
-        self.runs.last_failure = str(error)
-
-    def _closed(self, values):
+    def _of_done(self, function):
+        """What a function makes of each experiment that has been done; None if it fails with one."""
         try:
-            return numpy.concatenate([experiment.by_closed_form(values) for experiment in self.done])
+            return [function(experiment) for experiment in self.done]
         except (SceneError, RunError) as error:
-            self._failed(error)
+            self.runs.n_failures += 1
+            self.runs.last_failure = str(error)
+
+    def _joined(self, function):
+        curves = self._of_done(function)
+        return None if curves is None else numpy.concatenate(curves)
 
     def _seen(self, values, rows):
         if any(isinstance(one, str) for one in rows):
             return None
-        try:
-            return numpy.concatenate([e.seen(one, e.changes(values)[1]) for e, one in zip(self.done, rows)])
-        except RunError as error:
-            self._failed(error)
+        rows = iter(rows)
+        return self._joined(lambda e: e.seen(next(rows), e.changes(values)[1]))
 
     def ends(self, values, j, closed, share=0):
         """Where differences by the unknown `j` are taken: to both sides, by this share of its value if there is one, but not over
@@ -316,9 +302,7 @@ class Problem:
         unknowns = self.unknowns
         lower, upper, searched = (unknowns.to_search(v) for v in (unknowns.lower, unknowns.upper, values))
         near, moved = 1e-4 * (upper - lower), values.copy()
-        for j in free:
-            if min(searched[j] - lower[j], upper[j] - searched[j]) < near[j]:
-                moved[j] = unknowns.lower[j] if searched[j] - lower[j] < near[j] else unknowns.upper[j]
+        moved[free] = numpy.select([searched - lower < near, upper - searched < near], [unknowns.lower, unknowns.upper], values)[free]
         inside = self._end(values, converged, closed)
         if (moved == values).all():
             return inside

@@ -4,6 +4,7 @@ import hashlib
 import io
 import json
 import os
+import pathlib
 import sys
 import tempfile
 from typing import Any, Callable, Dict, List, Mapping, Optional, Tuple
@@ -14,6 +15,7 @@ import _debond
 
 from .errors import SceneError, expect, path_of
 from .page import write_page_if_possible
+from .page_data import number
 from .variants import variants_of
 
 __version__ = _debond.version
@@ -72,18 +74,14 @@ def sample_law(law: Callable[[float], float], longest: float, tolerance: float =
     `longest` [mm]. Raises SceneError if the law does not fall from 1, or is no number somewhere."""
 
     def phi(slip):
-        value = law(slip)
-        try:
-            value = float(value)
-        except (TypeError, ValueError):
-            value = numpy.nan
+        value = number(law(slip))
         if not 0 <= value <= 1:
             raise SceneError(f"law: phi({slip:g} mm) = {value}: expected a number from 0 to 1")
         return value
 
     expect(callable(law), "law", law, "a function of the sliding distance [mm]")
-    if not (isinstance(longest, (int, float, numpy.number)) and 0 < longest < numpy.inf):
-        raise SceneError(f"law: distance {longest}: expected the sliding distance [mm] after which phi is constant, above 0")
+    expect(isinstance(longest, (int, float, numpy.number)) and 0 < longest < numpy.inf, "law: distance", longest,
+           "the sliding distance [mm] after which phi is constant, above 0")
     points = {slip: phi(slip) for slip in numpy.linspace(0, longest, 33)}
     if abs(points[0] - 1) > 1e-12:
         raise SceneError(f"law: phi(0) = {points[0]:g}: expected 1, the whole bond; Bonding degree makes it less")
@@ -114,8 +112,7 @@ class Scene:
 
     def __init__(self, filename=None, entries: Optional[Mapping[str, Any]] = None, *, text: str = "",
                  law: Optional[Tuple[Callable[[float], float], float]] = None):
-        if isinstance(filename, Mapping):
-            raise SceneError("a dictionary of entries is the second argument: Scene(None, {...}) or Scene(entries={...})")
+        expect(not isinstance(filename, Mapping), "scene", filename, "a file, or Scene(None, {...})")
         if filename is not None and text:
             raise SceneError("a scene is either a file or a text, not both")
         expect(entries is None or isinstance(entries, Mapping), "entries", entries, 'a dictionary {"Subsection/Entry": value}')
@@ -125,17 +122,11 @@ class Scene:
         self._name = base._name if base else "scene" if filename is None else path_of(filename, "scene", "the name of a file or a Scene")
         self._tables = list(base._tables) if base else []  # files live as long as a scene that needs them
         if law is not None:
-            if not (isinstance(law, (tuple, list)) and len(law) == 2 and callable(law[0])):
-                raise SceneError(f"law: {law!r:.60}: expected a pair, (function, distance [mm]): phi over the sliding "
-                                 "distance, and the distance after which it is constant")
+            expect(isinstance(law, (tuple, list)) and len(law) == 2 and callable(law[0]), "law", law,
+                   "a pair, (function, distance [mm]): phi over the sliding distance, and the distance after which it is constant")
             overrides += ["Interface/Friction law=table", "Interface/Friction table=" + self._write_table(*law)]
-        entries = []
-        if base:
-            entries = base._entries
-        elif filename is not None:
-            entries = _debond.read_file(self._name)
-        elif text:
-            entries = _debond.read_text(text, "scene")
+        entries = (base._entries if base else _debond.read_file(self._name) if filename is not None else
+                   _debond.read_text(text, "scene") if text else [])
         self._entries = _debond.changed(entries, overrides)
 
     def _write_table(self, law, longest) -> str:
@@ -146,18 +137,13 @@ class Scene:
     def _new_table(self, text) -> str:
         directory = tempfile.TemporaryDirectory(prefix="debond-")
         self._tables.append(directory)
-        name = os.path.join(directory.name, "law.csv")
-        with open(name, "w", encoding="utf-8") as file:
-            file.write(text)
-        return name
+        name = pathlib.Path(directory.name, "law.csv")
+        name.write_text(text, encoding="utf-8")
+        return str(name)
 
     def __getstate__(self):
-        tables = {}
-        for directory in self._tables:
-            name = os.path.join(directory.name, "law.csv")
-            with open(name, encoding="utf-8") as file:
-                tables[name] = file.read()
-        return self._entries, self._name, tables
+        names = [pathlib.Path(directory.name, "law.csv") for directory in self._tables]
+        return self._entries, self._name, {str(name): name.read_text(encoding="utf-8") for name in names}
 
     def __setstate__(self, state):
         self._entries, self._name, tables = state
@@ -258,7 +244,8 @@ class Simulation:
 
     def __init__(self, scene: Scene, drive: Optional[Mapping[str, float]] = None, *, comm=None):
         self._team = _team(comm)
-        driven = _agreed(self._team, lambda: _checked(scene) and self._numbers(drive))
+        driven = _agreed(self._team, lambda: expect(isinstance(scene, Scene), "scene", scene, "a debond.Scene, as debond.Scene(FILE)")
+                         or self._numbers(drive))
         self._scene = scene  # keeps the table of a law
         self._run = _debond.Run(scene._read(self._team), driven, self._team)
 
@@ -267,12 +254,8 @@ class Simulation:
         expect(values is None or isinstance(values, Mapping), "values of the chuck", values, 'a dictionary, as {"Rotation z": 0}')
         values = dict(sorted((values or {}).items()))
         for name, value in values.items():
-            try:
-                values[name] = float(value)
-            except (TypeError, ValueError):
-                values[name] = numpy.nan
-            if not numpy.isfinite(values[name]):
-                raise SceneError(f"{name}: {value!r:.60}: expected a finite number")
+            values[name] = number(value)
+            expect(numpy.isfinite(values[name]), name, value, "a finite number")
         return values
 
     @property
@@ -288,12 +271,7 @@ class Simulation:
         """Computes all rows that are left. on_row is called with each when it is complete; what it raises ends the run, and
         the row stays. So does the row after which Ctrl-C ends it. run() or advance() go on from there."""
 
-        def check():
-            if on_row is not None and not callable(on_row):
-                raise SceneError(f"on_row: {on_row!r:.60}: expected a function of a row")
-            return "run"
-
-        _agreed(self._team, check)
+        _agreed(self._team, lambda: expect(on_row is None or callable(on_row), "on_row", on_row, "a function of a row") or "run")
         self._run.run(None if on_row is None else lambda: on_row(self.row))
 
     @property
@@ -314,8 +292,8 @@ class Simulation:
 
         def check():
             places = numpy.asarray(points, dtype=float)
-            if body not in ("bone", "implant") or places.ndim != 2 or places.shape[1] != 3:
-                raise SceneError(f"bulk({body!r:.20}, points of shape {places.shape}): expected 'bone' or 'implant', and n x 3")
+            expect(body in ("bone", "implant"), "body", body, "'bone' or 'implant'")
+            expect(places.ndim == 2 and places.shape[1] == 3, "points of shape", places.shape, "n x 3")
             return body, places.tolist()
 
         body, places = _agreed(self._team, check)
@@ -335,20 +313,10 @@ class Simulation:
             raise SceneError("this is no state that save() gave, or it was damaged since")
         self._run.restore(state[length:])
 
-    def __repr__(self) -> str:
-        row = self._run.rows().get("time", ())
-        return f"Simulation({self._scene!r}, {len(row)} rows{', finished' if self.is_finished else ''})"
-
     def result(self) -> Result:
         """All rows so far."""
         run = self._run
         return Result(run.rows(), _known(run.summary()), run.warnings)
-
-
-def _checked(scene) -> Scene:
-    if not isinstance(scene, Scene):
-        raise SceneError(f"expected a debond.Scene, not {scene!r:.60}: debond.Scene(FILE) reads one")
-    return scene
 
 
 def set_number_of_threads(n: int) -> None:

@@ -94,10 +94,9 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
         raise InputError(f"{place}, column '{column}': read '{shortened(fields[column])}': expected {expected}")
 
     name, group = fields["specimen"], fields.get("group", "")
-    if not _NAME.fullmatch(name) or name.endswith("."):
-        refuse("specimen", "a name for a directory: a letter or a digit, then at most 99 signs but / \\ : * ? \" < > |")
-    if name.lower() in FILES:
-        refuse("specimen", f"another name: {name.lower()} is a file of the results")
+    if not _NAME.fullmatch(name) or name.endswith(".") or name.lower() in FILES:
+        refuse("specimen", "a name for a directory: a letter or a digit, then at most 99 signs but / \\ : * ? \" < > |; "
+                           f"not {', '.join(FILES)}")
     if not fields["curve"]:
         refuse("curve", "the file of a measured curve")
     if group.lower() == ALL:
@@ -117,7 +116,7 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
 
 def _scene_of(template, changes=()):
     """The scene with unknowns at their starts, without a measured curve. Raises SceneError."""
-    entries = variants_of(_debond.changed(template, [*changes, "Output/Reference curve=none", "Task=calibrate"]))[0].entries
+    entries = variants_of(_debond.changed(template, [*changes, "Output/Reference curve=none", "Task=calibrate"], ""))[0].entries
     unknowns = Unknowns([Variant(entries, {})])
     if not unknowns.list:
         raise InputError("the template has no unknowns: write <<START in LOWER..UPPER>> in the place of numbers that are to be "
@@ -131,11 +130,7 @@ def _check_entries(specimen, template):
     try:
         _scene_of(template, [f"{column}={text}" for column, text in specimen.entries.items()])
     except InputError as error:
-        text, why = specimen.entries.get(error.entry), str(error)
-        if text is None:
-            raise InputError(f"{specimen.place}: {why}") from None
-        why = why[why.rindex("expected "):] if "expected " in why else why  # "ENTRY = 'TEXT': expected ..."
-        raise InputError(f"{specimen.place}, column '{error.entry}': read '{shortened(text)}': {why}") from None
+        raise InputError(f"{specimen.place}: {error}") from None
 
 
 def read_specimens(filename, template) -> List[Specimen]:

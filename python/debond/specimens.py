@@ -11,7 +11,6 @@ specimens.json and report.html; DIR/NAME what a fit leaves. Those that are finis
 kept. The command ends with 2 if a specimen failed, and with 1 if the table or the template is wrong.
 """
 
-import json
 import math
 import os
 import sys
@@ -21,7 +20,7 @@ import _debond
 
 from .errors import InputError, RunError, path_of
 from .executors import check_workers, results_of
-from .files import csv_text, say, write_whole
+from .files import csv_text, make_directory, say, write_json, write_whole
 from .page import write_page_if_possible
 from .pooling import pool
 from .scene import Scene
@@ -109,19 +108,16 @@ def fit_specimens(template, table, directory=None, *, executor=None, jobs: int =
     failures = {name: result["reason"] for name, result in results.items() if "reason" in result}
     about = {"title": said.get("Title", ""), "table": table, "specimens": len(specimens), "failures": failures,
              "version": _debond.version, "provenance": _debond.provenance()}
-    for name, text in (("parameters.csv", csv_text(PARAMETERS, parameters)), ("pooled.csv", csv_text(POOLED, pooled)),
-                       ("specimens.json", json.dumps(about, indent=2, ensure_ascii=False) + "\n")):
-        write_whole(os.path.join(directory, name), text)
+    write_whole(os.path.join(directory, "parameters.csv"), csv_text(PARAMETERS, parameters))
+    write_whole(os.path.join(directory, "pooled.csv"), csv_text(POOLED, pooled))
+    write_json(os.path.join(directory, "specimens.json"), about)
     write_page_if_possible(directory)
     return Specimens(parameters, pooled, failures, directory)
 
 
 def _fit_all(specimens, scene, table, directory, executor, n_jobs, say):
     """{name: result} of all specimens, in the order of the table."""
-    try:
-        os.makedirs(directory, exist_ok=True)
-    except OSError as error:
-        raise RunError(f"cannot write {directory}: {error.strerror}") from None
+    make_directory(directory)
     tasks = {specimen.name: task_of(specimen, scene._entries, table, directory) for specimen in specimens}
     results = {name: finished(task) for name, task in tasks.items()}
     left = {name: task for name, task in tasks.items() if not results[name]}

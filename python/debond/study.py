@@ -6,11 +6,12 @@ are the same to the last digit. A variant whose directory holds finished results
 left a checkpoint goes on from it. doc/reference/results.md describes the files.
 """
 
+import itertools
 import json
 import math
 import multiprocessing
 import os
-import re
+import pathlib
 import shutil
 import signal
 import statistics
@@ -19,6 +20,7 @@ from multiprocessing.connection import Pipe, wait
 
 import _debond
 
+from .ensemble import write_ensemble
 from .errors import Interrupted, RunError, SceneError
 from .files import csv_text, heeding, say, write_whole
 from .page import write_page_if_possible
@@ -66,12 +68,8 @@ class Variant:
         return existing
 
     def _look_up_repetitions(self):
-        self.repetitions = []
-        while len(self.repetitions) < self.n_repetitions:
-            one = json.loads(_debond.json_in(self._repetition(len(self.repetitions) + 1)))
-            if not one:
-                break
-            self.repetitions.append(one)
+        kept = (json.loads(_debond.json_in(self._repetition(i))) for i in range(1, self.n_repetitions + 1))
+        self.repetitions = list(itertools.takewhile(bool, kept))
         for name in self.summary if self.repetitions else ():
             if name == "wall_seconds" or name.startswith("seconds_"):
                 seconds = [one[name] for one in self.repetitions if one.get(name) is not None]
@@ -79,8 +77,8 @@ class Variant:
         self.done = self.done and len(self.repetitions) == self.n_repetitions
 
     def forget_repetitions(self):
-        for name in filter(re.compile(r"repetition-[0-9]+\.json").fullmatch, os.listdir(self.directory)):
-            os.remove(os.path.join(self.directory, name))
+        for file in pathlib.Path(self.directory).glob("repetition-*.json"):
+            file.unlink()
         self.repetitions = []
 
     def end_run(self, failure):
@@ -202,8 +200,7 @@ class Study:
         said = set()
         for variant in self.variants:
             variant.look_up()
-            say(variant.name + (" (done already, but the content of its reference has changed: distances will be computed anew)"
-                                if variant.has_other_references else " (done already)" * variant.done))
+            say(variant.name + " (done already)" * variant.done)
             doubts = _debond.check_variant(variant.scene)
             for doubt in doubts:
                 if doubt not in said:
@@ -246,7 +243,6 @@ class Study:
         self._run_variants(n_jobs, n_threads, force)
         self.write_table()
         self.write_ensemble()
-        self.name_best()
         has_page = self.reports and write_page_if_possible(self.directory)
         self.say(f"Results are in {self.directory}/study.csv" + " and report.html" * has_page)
         failed = n - self.n_done()
@@ -302,43 +298,23 @@ class Study:
         for variant in sorted(self.variants, key=lambda one: not one.done):
             if self.reference:
                 variant.compare_with(self.variants[self.reference - 1])
-            summary = dict(variant.summary)
-            if not variant.done:
-                summary.update(converged=False, reason=variant.failure or "not run yet")
-            row = rows[variant.number] = {"variant": variant.number, **variant.values}
-            row.update((name, value) for name, value in summary.items() if not isinstance(value, dict) and name != "changed_entries")
-            columns.update(dict.fromkeys(row))
-        write_whole(f"{self.directory}/study.csv", csv_text(columns, ([field_of(rows[i + 1].get(name)) for name in columns]
-                                                                      for i in range(len(rows))), 12))
-
-    def name_best(self):
-        """The variant closest to the measured curve."""
-        compared = [(number(variant.summary.get("difference_mean")), variant) for variant in self.variants if variant.done]
-        mean, best = min((one for one in compared if math.isfinite(one[0])), key=lambda one: one[0], default=(0, None))
-        if best is None or self.reference or len(self.variants) == 1:
-            return
-        largest = number(best.summary.get("difference_max"))
-        self.say(f"Closest to {best.scene.values['Output / Reference curve']}: {best.name}, by {100 * mean:.2g} % in the mean and "
-            f"{100 * largest:.2g} % at most")
-        for remark in best.summary.get("remarks", []):
-            if remark.startswith("e_mp"):
-                self.say("warning: " + remark)
+            failed = {} if variant.done else {"converged": False, "reason": variant.failure or "not run yet"}
+            found = {name: value for name, value in {**variant.summary, **failed}.items()
+                     if not isinstance(value, dict) and name != "changed_entries"}
+            rows[variant.number] = {"variant": variant.number, **variant.values, **found}
+            columns.update(rows[variant.number])
+        fields = ([field_of(rows[number].get(name)) for name in columns] for number in sorted(rows))
+        write_whole(f"{self.directory}/study.csv", csv_text(columns, fields, 12))
 
     def write_ensemble(self):
         """The seed is what stands for chance."""
         if CHANCE in self.varied:
-            try:
-                from .ensemble import write_ensemble
-            except ImportError as error:
-                self.say(f"warning: there are no statistics over all seeds: they need the module {error.name} of Python")
-                return
             for note in write_ensemble(self.directory):
                 self.say(note)
             self.say(f"Statistics over all seeds are in {self.directory}/ensemble.csv and ensemble_summary.csv")
             return
         for name in ("ensemble.csv", "ensemble_summary.csv"):  # of a study that was here before
-            if os.path.exists(f"{self.directory}/{name}"):
-                os.remove(f"{self.directory}/{name}")
+            pathlib.Path(self.directory, name).unlink(missing_ok=True)
 
 
 def field_of(value):

@@ -8,24 +8,18 @@
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy
 
 import _debond
 
 from .errors import shortened
+from .page_data import number
 
 _EXPECTED = ("expected <<START in LOWER..UPPER>>, <<START in LOWER..UPPER log>>, <<NAME: START in LOWER..UPPER>> or "
              "<<EXPRESSION>> in such names")
 _UNKNOWN = re.compile(r"(?P<start>.*?) in (?P<lower>.*?)\.\.(?P<upper>.*?)(?P<log> log)?$", re.S)
-
-
-def _number(text):
-    try:
-        return float(text) if re.fullmatch(r"[-+0-9.eE]+", text.strip()) else math.nan
-    except ValueError:
-        return math.nan
 
 
 @dataclass
@@ -37,18 +31,15 @@ class Unknown:
     lower: float
     upper: float
     logarithmic: bool
-    unit: str = ""
-    entry: object = None  # that says so, for messages
+    unit: str = field(default="", compare=False)
+    entry: object = field(default=None, compare=False)  # that says so, for messages
 
 
 def _read(entry, text):
     match = _UNKNOWN.match(text)
-    start = _number(match["start"]) if match else math.nan
-    if math.isnan(start):
+    start, lower, upper = map(number, match.group("start", "lower", "upper")) if match else [math.nan] * 3
+    if not math.isfinite(abs(start) + abs(lower) + abs(upper)):
         entry.refuse(f"'{shortened(text)}': {_EXPECTED}")
-    lower, upper = _number(match["lower"]), _number(match["upper"])
-    if math.isnan(lower) or math.isnan(upper):
-        entry.refuse(f"the bounds '{shortened(text[text.index(' in ') + 4:])}' are no numbers: {_EXPECTED}")
     if not lower < upper or not lower <= start <= upper:
         entry.refuse(f"'{shortened(text)}': expected LOWER < UPPER and START between them")
     if match["log"] and lower <= 0:
@@ -68,12 +59,12 @@ class Unknowns:
         self.list = []
         self._named = {}  # index -> name
         self._n_experiments = len(experiments)
-        self._varied = []  # of each experiment: (entry, texts, marks)
-        for number, own in enumerate(experiments):
-            self._varied.append([self._read_entry(number, entry, entry.name not in own.values)
+        self._varied = []  # of each experiment: (entry, texts, marks, whether one mark is all)
+        for i, own in enumerate(experiments):
+            self._varied.append([self._read_entry(i, entry, entry.name not in own.values)
                                  for entry in own.entries if "<<" in entry.value])
         names = ", ".join(self._named.values())
-        for entry, _, marks in (one for varied in self._varied for one in varied):
+        for entry, _, marks, _ in (one for varied in self._varied for one in varied):
             for i, mark in enumerate(marks):
                 if isinstance(mark, str):
                     marks[i] = self._expression(entry, names, mark)
@@ -82,7 +73,7 @@ class Unknowns:
             numpy.array([getattr(unknown, member) for unknown in self.list], dtype=kind)
             for member, kind in (("start", float), ("lower", float), ("upper", float), ("logarithmic", bool)))
 
-    def _read_entry(self, number, entry, is_shared):
+    def _read_entry(self, experiment, entry, is_shared):
         pieces = re.split(r"<<(.*?)>>", entry.value, flags=re.S)
         texts, marks = pieces[::2], []
         if any("<<" in text for text in texts):
@@ -98,16 +89,15 @@ class Unknowns:
                 continue
             unknown = _read(entry, (rest if colon else mark).strip())
             unknown.unit = _debond.unit_of(entry.name) if alone else ""
-            which = f" (experiment {number + 1})" if self._n_experiments > 1 and not is_shared else ""
+            which = f" (experiment {experiment + 1})" if self._n_experiments > 1 and not is_shared else ""
             unknown.name = name if colon else entry.name + which + (f" #{len(marks) + 1}" if marks else "")
             marks.append(self._add(unknown, bool(colon)))
-        return entry, texts, marks
+        return entry, texts, marks, alone
 
     def _add(self, unknown, has_name):
         for i, other in enumerate(self.list):
             if other.name == unknown.name:
-                if (other.start, other.lower, other.upper, other.logarithmic) != (unknown.start, unknown.lower, unknown.upper,
-                                                                                  unknown.logarithmic):
+                if other != unknown:
                     unknown.entry.refuse(f"the unknown '{unknown.name}' is described differently in {other.entry.name} = "
                                          f"'{shortened(other.entry.value)}'")
                 other.unit = other.unit or unknown.unit
@@ -119,7 +109,7 @@ class Unknowns:
 
     @staticmethod
     def _expression(entry, names, text):
-        if not math.isnan(_number(text)):
+        if math.isfinite(number(text)):
             entry.refuse(f"<<{text}>> has no bounds: {_EXPECTED}")
         try:
             return text, _debond.expression(names, text)
@@ -144,20 +134,19 @@ class Unknowns:
         finite value."""
         named = [float(values[i]) for i in self._named]
         result = {}
-        for entry, texts, marks in self._varied[experiment]:
+        for entry, texts, marks, alone in self._varied[experiment]:
             text = texts[0]
-            alone = len(texts) == 2 and not texts[0].strip() and not texts[1].strip()
             for mark, after in zip(marks, texts[1:]):
                 if isinstance(mark, tuple):
-                    number = mark[1](named)
-                    if not math.isfinite(number):
+                    value = mark[1](named)
+                    if not math.isfinite(value):
                         place = ", ".join(f"{name} = {values[i]:.6g}" for i, name in self._named.items())
                         entry.refuse(f"<<{mark[0]}>> has no finite value at {place}; if(condition, a, b) leaves out "
                                      "what has none")
                 else:
-                    number = float(values[mark])
-                exact = repr(number).removesuffix(".0")
+                    value = float(values[mark])
+                exact = repr(value).removesuffix(".0")
                 # in an expression of the scene a minus may stand before it
-                text += (exact if alone or number >= 0 else f"({exact})") + after
+                text += (exact if alone or value >= 0 else f"({exact})") + after
             result[entry.name] = text
         return result

@@ -55,11 +55,9 @@ def _expanded(entry, item):
     if ".." not in item or set(item) - set("0123456789+-.eE \t"):  # not the path ../table.csv
         return [item]
     ends = re.fullmatch(r"([+-]?[0-9]{1,9})[ \t]*\.\.[ \t]*([+-]?[0-9]{1,9})", item)
-    if ends is None:
-        entry.refuse(f"'{shortened(item)}' is no range: expected FIRST..LAST with whole numbers of at most nine digits")
-    first, last = map(int, ends.groups())
+    first, last = map(int, ends.groups()) if ends else (1, 0)
     if first > last:
-        entry.refuse(f"the range '{item}' is empty: expected FIRST..LAST with FIRST <= LAST")
+        entry.refuse(f"'{shortened(item)}' is no range: expected FIRST..LAST with whole numbers of at most nine digits, FIRST <= LAST")
     if last - first >= MOST:
         entry.refuse(TOO_MANY)
     return [str(number) for number in range(first, last + 1)]
@@ -73,11 +71,9 @@ def _choice(entry):
     named = re.fullmatch(r"\s*([A-Za-z][A-Za-z0-9_ -]{0,99}?)\s*:(.*)", inside, re.DOTALL)
     name, inside = named.groups() if named else ("", inside)
     by_run = "||" in inside
-    if by_run and name:
-        entry.refuse("a named choice takes | between its values, not ||")
     items = [item.strip() for item in inside.split("||" if by_run else "|")]
-    if any("|" in item for item in items):
-        entry.refuse("either | or || between all values")
+    if any("|" in item for item in items) or (by_run and name):
+        entry.refuse("either | or || between all values, and | in a named choice")
     values = [(before + one + after).strip() for item in items for one in _expanded(entry, item)]
     twice = [value for value, n in Counter(values).items() if n > 1]
     if twice and not by_run and not name:

@@ -11,7 +11,7 @@ namespace Debond
 {
   namespace
   {
-    /** That of Bone / Material and Implant / Material; `linear' is the
+    /** Material of Bone / Material and Implant / Material; `linear' is the
      *  Neo-Hookean one at rest. Another material has its place here. */
     std::shared_ptr<const HyperelasticMaterial>
     make_material(const BodyParameters &body)

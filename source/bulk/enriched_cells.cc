@@ -218,7 +218,7 @@ namespace Debond
 
 
 
-  /** What some of the cells add. */
+  /** Sums over some of the cells. */
   struct EnrichedCells::Forces
   {
     Eigen::VectorXd force;

@@ -22,7 +22,7 @@ namespace Debond
 
 
 
-    /** Whether the functions of the face are mirror images of each other, the
+    /** True if the functions of the face are mirror images of each other, the
      *  parameter of the mirrored direction @p d running backwards. */
     bool
     has_mirrored_functions(const NurbsSurface &face, const unsigned int d)

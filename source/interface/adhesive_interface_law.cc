@@ -66,10 +66,16 @@ namespace Debond
       bool
       initialise() override
       {
+        // Without a strength nothing holds the faces together: the law of the
+        // paper is taken in its place, which spares each point the
+        // exponentials.
         if (t_0 == 0.)
           return false;
         require_bond("adhesive");
-        // the pull falls steepest at 2 g_0
+        // Of a full bond: sigma_e is largest at g_0, its area is e t_0 g_0, and
+        // its slope at 0 is e t_0/g_0. The fall -dsigma_e/dx = t_0/g_0 (x/g_0 -
+        // 1) exp(1 - x/g_0) is steepest at x = 2 g_0, t_0/(e g_0): where the
+        // bodies resist less than that, the bond opens in a jump.
         tension = {
           t_0, M_E * t_0 * g_0, M_E * t_0 / g_0, t_0 / (M_E * g_0), g_0, eta};
         characteristic_distance =
@@ -85,6 +91,9 @@ namespace Debond
               const double      g_n,
               const double      distance) const override
       {
+        // kappa follows the gap at the end of the step while that grows: the
+        // damage is implicit, as is that by slip, so that no step lags behind
+        // the one before.
         const bool is_held      = holds(start.history, start.phi_0),
                    grows        = is_held && g_n > start.history.damage;
         const double      kappa = grows ? g_n : start.history.damage;
@@ -107,6 +116,8 @@ namespace Debond
             if (g_n < 0.)
               result.energy = 0.5 * stiffness * g_n * g_n;
           }
+        // Pressure and pull have the one value 0 at g_n = 0, but not one slope:
+        // eps_n on one side, phi K on the other.
         // The tangent of faces that touch, whichever way they will go: with the
         // softer one the first correction may go beyond the largest pull.
         if (is_held && std::abs(g_n) < touching * g_0)
@@ -115,6 +126,10 @@ namespace Debond
         // step
         result.resists = is_held || result.pressure > 0.;
         // d = x exp(1 - x) beyond g_0
+        // phi = phi_0 s d as Eq. (13) has it with a bond that opening wears,
+        // too, and what presses for friction, p + c phi t_0: pulled faces rub
+        // on as long as they hold. Both with their derivatives by gap and
+        // distance, which rub() chains with those of the friction law.
         const double   d = left(kappa), by_kappa = grows && kappa > g_0 ?
                                                      d * (1. / kappa - 1. / g_0) :
                                                      0.;
@@ -152,6 +167,9 @@ namespace Debond
         PointHistory result = InterfaceLaw::advance(start, g_n, distance);
         if (start.history.joined)
           result.damage = std::max(start.history.damage, g_n);
+        // Beyond gone() the bond is given up for good: what is left of the
+        // exponential would hold points together that no instrument could tell
+        // from open ones.
         result.broken = start.history.broken || result.damage > gone();
         return result;
       }
@@ -176,6 +194,8 @@ namespace Debond
            const double      g_n,
            const double      distance) const override
       {
+        // Per area of the point [N/mm]. Friction and damage are accounted for
+        // apart, so that D_adh is the part that broke the bond.
         const double g_start = start.history.normal_gap;
         PointWork    result;
         if (!start.frictionless && distance > 0.)
@@ -220,6 +240,10 @@ namespace Debond
                         const double      pressure,
                         const double      distance) const override
       {
+        // A bound of -dL/dd = dL/dphi dphi/dd + dL/dp c t_0 dphi/dd for all
+        // that is still to come in this step, with the steepest s' from g_s on
+        // and the most that can press. It is compared with eps_t, see
+        // InterfaceLaw::softening_by_slip().
         const double bonded = start.bond_left() * left(start.history.damage),
                      slip = start.history.slip, held = c * t_0,
                      now = pressure + held * bonded *
@@ -259,6 +283,10 @@ namespace Debond
                     const Changing    &phi,
                     InterfaceResponse &response) const
       {
+        // The speed is the mean one of the step, (g_n - g_n^n)/dt, of the open
+        // part of the gap only: faces that are pressed have none. A pull that
+        // would fall faster than the bodies unload so takes a time that grows
+        // with eta.
         const double before = std::max(0., start.history.normal_gap),
                      moved  = before < PointHistory::far ? g_n - before : 0.,
                      opened = std::max(0., moved);
@@ -278,6 +306,8 @@ namespace Debond
                        const double      g_n,
                        const double      distance) const
       {
+        // L at a fixed gap is smooth in the distance but for where the decay of
+        // the bond begins and ends, whose places the law does not say.
         static const dealii::QIterated<1> simpson(dealii::QSimpson<1>(), 16);
         double                            mean = 0.;
         for (unsigned int q = 0; q < simpson.size(); ++q)
@@ -286,7 +316,7 @@ namespace Debond
         return mean * distance;
       }
 
-      /** Whether a point with this history is bonded. */
+      /** True if a point with this history is bonded. */
       bool
       holds(const PointHistory &history, const double phi_0) const
       {
@@ -319,6 +349,9 @@ namespace Debond
       double
       spent(const double kappa) const
       {
+        // W(kappa) = integral of sigma_e from 0 to kappa, less K kappa^2/2,
+        // which unloading gives back: of small openings, which are elastic,
+        // nothing is spent but what is of third order.
         const double x = kappa / g_0;
         return -std::exp(1.) * t_0 * g_0 *
                (std::expm1(-x) + (x + 0.5 * x * x) * std::exp(-x));

@@ -18,6 +18,8 @@ namespace Debond
   {
     const AllowedValues strength = Allowed::number_between(1e-9, 1e6, "MPa"),
                         work     = Allowed::number_between(1e-9, 1e6, "N/mm");
+    // Strength, work and stiffness are the triangle of each of both modes;
+    // Criterion and Exponent say which work lies between them.
     table.enter_subsection("Mixed mode");
     table.add("Normal strength",
               N,
@@ -68,6 +70,7 @@ namespace Debond
                                    const double       work,
                                    const std::string &strength_name,
                                    const double       strength) {
+      // work that is stored when damage begins, at delta_0 = strength/K [N/mm]
       const double least = strength * strength / (2. * K);
       if (work <= least)
         throw EntryError("Interface / Mixed mode / Fracture energy " + mode,
@@ -103,13 +106,19 @@ namespace Debond
                      const double      delta_t) const
   {
     CohesiveResponse result;
-    const double     phi_0     = start.bond_left();
+    const double     phi_0 = start.bond_left();
+    // Damage never falls: that of the beginning of the step is the least. What
+    // is left carries t = phi_0 (1 - omega) K delta, straight from the origin.
     result.damage              = start.history.damage;
     result.stiffness_by_damage = -phi_0 * K;
     const double n = std::max(0., g_n), squared = n * n + delta_t * delta_t,
                  q = std::hypot(n * K / N, delta_t * K / T);
     if (q > 1.)
       {
+        // q > 1 is beyond the quadratic criterion (t_n/N)^2 + (t_t/T)^2 = 1 of
+        // the undamaged bond. B is the share of mode II in the direction of the
+        // gap, on which both G and delta_0 depend; along one direction the law
+        // is the triangle of that mixture.
         double       G_slope;
         const double B = delta_t * delta_t / squared, G = energy(B, G_slope);
         const double r     = 2. * G * q * q / (K * squared),
@@ -123,6 +132,7 @@ namespace Debond
             const auto by = [&](const double gap,
                                 const double strength,
                                 const double B_slope) {
+              // chain rule through q and r = 2 G q^2/(K delta^2)
               const double q_slope = gap * K * K / (strength * strength * q),
                            r_slope =
                              r * (G_slope * B_slope / G + 2. * q_slope / q -
@@ -168,6 +178,8 @@ namespace Debond
   double
   BilinearBond::least_ratio() const
   {
+    // Sampled over the mixtures, as there is no closed form with either
+    // criterion.
     constexpr unsigned int n_mixtures = 256;
     double                 result     = 2. * G_I * K / (N * N), slope;
     for (unsigned int i = 1; i <= n_mixtures; ++i)
@@ -192,6 +204,8 @@ namespace Debond
         slope = (G_II - G_I) * exponent * std::pow(B, exponent - 1.);
         return G_I + (G_II - G_I) * std::pow(B, exponent);
       }
+    // power law: (G_1/G_I)^a + (G_2/G_II)^a = 1 with G_1 = (1 - B) G and G_2 =
+    // B G
     const double first = (1. - B) / G_I, second = B / G_II,
                  G = std::pow(std::pow(first, exponent) +
                                 std::pow(second, exponent),

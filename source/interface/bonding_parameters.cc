@@ -154,6 +154,8 @@ namespace Debond
           Row{reads_file, !file.empty(), "File", "image or file"},
           Row{pattern == Kind::image, white_level != 0, "White level", "image"},
           Row{pattern == Kind::image, threshold != -1, "Threshold", "image"}})
+      // What a pattern has no use for is refused rather than passed over: a
+      // scene would say something else than what is run.
       if (row.is_set && !row.is_used)
         throw EntryError(bonding_section + row.entry,
                          "it is not used by Pattern = " + name_of(pattern) +

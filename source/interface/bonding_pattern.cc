@@ -26,6 +26,8 @@ namespace Debond
     all_parts.resize(part_of(points.size() - 1) + 1);
     for (unsigned int q = 0; q < points.size(); ++q)
       {
+        // Areas and centroids by quadrature weights, so that sums over points
+        // during the run see the fraction that was asked for.
         Part &part = all_parts[part_of(q)];
         part.area += points[q].JxW;
         part.place += points[q].JxW * points[q].X;
@@ -76,6 +78,8 @@ namespace Debond
                        [&](const unsigned int a, const unsigned int b) {
                          return rank[a] < rank[b];
                        });
+      // area that is left to bond [mm^2]; the group that crosses the border
+      // gets what is left of it, and those behind nothing
       double remaining = 0.;
       for (const BondingPattern::Part &part : parts)
         remaining += bonded_fraction * part.area;
@@ -120,6 +124,8 @@ namespace Debond
         }
     else if (pattern == Kind::random && parameters.correlation_length > 0.)
       {
+        // The highest places of a Gaussian field form connected patches of
+        // about the correlation length, of whatever share is asked for.
         const RandomField field(parameters.seed, parameters.correlation_length);
         for (unsigned int i = 0; i < rank.size(); ++i)
           rank[i] = -field(all_parts[i].place);
@@ -133,6 +139,8 @@ namespace Debond
     else
       {
         if (pattern != Kind::homogeneous)
+          // expression, image and file say phi_0 itself, of any share of the
+          // area
           values = bonding_from_source(
             parameters, implant, surface, along, centres, summary.remark);
         for (unsigned int i = 0; i < values.size(); ++i)
@@ -150,11 +158,14 @@ namespace Debond
   void
   BondingPattern::count_patches()
   {
+    // A search through the neighbours, from part to part: each is visited once.
     double best = 0.;
     for (const Part &part : all_parts)
       best = std::max(best, part.phi_0);
     std::vector<bool> to_visit(all_parts.size());
     for (unsigned int p = 0; p < all_parts.size(); ++p)
+      // half of the best: the border at which a blurred edge is as much in as
+      // out
       to_visit[p] = best > 0. && all_parts[p].phi_0 >= 0.5 * best;
     for (unsigned int seed = 0; seed < all_parts.size(); ++seed)
       {
@@ -185,6 +196,9 @@ namespace Debond
   std::vector<unsigned int>
   BondingPattern::parts_beside(const unsigned int part) const
   {
+    // Inside of an element neighbours are known by their numbers; beyond its
+    // sides the surface knows which element lies there, also from patch to
+    // patch.
     const unsigned int m       = by_element ? 1 : n; // parts along an element
     const unsigned int element = part / (m * m), local = part % (m * m);
     const std::array<unsigned int, 2> index{{local % m, local / m}};
@@ -219,6 +233,8 @@ namespace Debond
   BondingPattern::point_at(const unsigned int     element,
                            const Eigen::Vector2d &xi) const
   {
+    // Where xi lies in its element, in parts of its width in both directions,
+    // and in the share of which point that is.
     const auto bounds = surface.element_bounds(element);
     const auto index  = [&](const unsigned int d) -> unsigned int {
       const double local =

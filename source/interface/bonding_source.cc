@@ -55,6 +55,8 @@ namespace Debond
       const double R = implant.characteristic_radius();
       return [phi_0, expression, R, face = implant.geometry()](
                const Eigen::Vector3d &X) {
+        // x and y unroll a side or a sphere; r and angle are always about the
+        // axis
         const Eigen::Vector2d place = face.on_face(X);
         const double          angle = std::atan2(X[1], X[0]) * 180. / M_PI;
         const double          r     = X.head<2>().norm();
@@ -86,6 +88,10 @@ namespace Debond
               const dealii::Quadrature<1> &along,
               const unsigned int           n_across)
     {
+      // As many pieces of the rule of the run as make n_across points across
+      // the face, rounded up: an element takes the mean over its area, and a
+      // pattern that is finer than the elements is not met by chance at a few
+      // points.
       const unsigned int across =
         along.size() * surface.n_elements_across(); // points of one copy
       const dealii::QIterated<2> quadrature(
@@ -124,6 +130,8 @@ namespace Debond
                     const dealii::Quadrature<1> &along,
                     std::string                 &remark)
     {
+      // The picture spans the box around the face; pixels need not be square on
+      // it, which is remarked upon beyond 2 %.
       GreyImage            image = read_grey_image(parameters.file,
                                         bonding_section + "File",
                                         parameters.white_level);
@@ -219,6 +227,7 @@ namespace Debond
                         ": they are numbered from 1 to " +
                         std::to_string(n_parts));
           const auto index = static_cast<unsigned int>(number) - 1;
+          // -1 is where no row has been yet, so that each part is met once
           file.expect(values[index] < 0.,
                       i,
                       part + " " + to_text(number) + " is there twice");
@@ -275,6 +284,7 @@ namespace Debond
         file.refuse("none of its " + std::to_string(file.rows.size()) +
                     " points lies on the contact face (x and y in mm, 0 at "
                     "its centre)");
+      // An R-tree, as a table of a scan may have very many rows.
       namespace bgi   = boost::geometry::index;
       const auto tree = dealii::pack_rtree(on_face);
       for (unsigned int i = 0; i < values.size(); ++i)
@@ -301,6 +311,8 @@ namespace Debond
                    const NurbsSurface                 &surface,
                    const std::vector<Eigen::Vector2d> &centres)
     {
+      // columns element or point, phi_0, and maybe x_mm, y_mm: by number; x, y,
+      // phi_0: by place
       PatternFile file{filename, {}, {}};
       double      size = 0.; // of the face
       for (const Eigen::Vector2d &centre : centres)
@@ -342,8 +354,8 @@ namespace Debond
 
 
 
-  // 200 points across the face are more than elements of usual meshes need, at a
-  // cost that is not seen beside a step.
+  // 200 points across the face are more than elements of usual meshes need, at
+  // a cost that is not seen beside a step.
   std::vector<double>
   bonding_from_source(const BondingParameters            &parameters,
                       const BodyParameters               &implant,
@@ -360,6 +372,8 @@ namespace Debond
                        "the content of this file has changed since the scene "
                        "was read: start again",
                        parameters.file);
+    // tables say a value for each part; pictures and expressions are functions
+    // of the place, of which elements take the mean
     if (parameters.pattern == BondingPatternKind::file)
       return values_of_file(
         parameters.file, implant, by_element, surface, centres);
@@ -418,6 +432,8 @@ namespace Debond
   std::vector<unsigned int>
   random_order(const unsigned int n, const std::uint64_t seed)
   {
+    // A permutation of its own rather than std::shuffle, which is another one
+    // with each library.
     std::vector<unsigned int> order(n);
     std::iota(order.begin(), order.end(), 0);
     PortableRandom random(seed);

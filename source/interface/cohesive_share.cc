@@ -18,6 +18,9 @@ namespace Debond
                         const Vector3d      &x,
                         const MasterSurface &master)
   {
+    // No iteration: the place xi does not move over the master, so that
+    // traction and damage follow from positions alone, as those of a point that
+    // sticks.
     damage = start.history.damage;
     holds  = start.history.joined && start.phi_0 > 0. && damage < 1.;
     energy = pressure = 0.;
@@ -34,6 +37,8 @@ namespace Debond
     const Vector3d     along  = whole - g_n * n;
     const double       length = along.norm();
     const Vector3d direction  = length > 0. ? Vector3d(along / length) : along;
+    // The bond knows the gap by two numbers, across and along [mm], and so has
+    // no preferred direction in the face.
     const CohesiveResponse response = law.cohesion->hold(start, g_n, length);
     const bool             opens    = g_n > 0.;
 
@@ -52,6 +57,9 @@ namespace Debond
       (response.damage_by_normal * whole.transpose() -
        response.damage_by_tangential * g_n * direction.transpose()) *
         dn;
+    // The gap that bears, by g, a_1 and a_2: all of g, or its part in the
+    // tangent plane, (1 - n n^T) g, which changes as the normal turns. Then t =
+    // k bears with the k of the damage: rank one is added by domega.
     Eigen::Matrix<double, 3, 9> dbears = Eigen::Matrix<double, 3, 9>::Zero();
     dbears.leftCols<3>()               = Matrix3d::Identity();
     if (!opens)
@@ -72,6 +80,8 @@ namespace Debond
                              PointStart          start,
                              const Vector3d     &before) const
   {
+    // Trapezoids in delta^2: on a way that is not straight from the origin the
+    // mixture of modes changes from part to part.
     constexpr unsigned int n       = 50;
     double                 work    = 0.;
     double                 squared = before.squaredNorm();

@@ -49,7 +49,11 @@ namespace Debond
     Matrix<double, 9, W::size>
     forces_by_w(const SlavePoint &point)
     {
-      const Vector3d             t = point.JxW * point.trial.traction;
+      const Vector3d t = point.JxW * point.trial.traction;
+      // f acts on the slave at x, and -f on the master at y(xi_hat). By w it
+      // changes as the traction does, 3 rows; and as xi_hat moves along the
+      // master the force moves with it, -t dxi^alpha on the tangent a_alpha, 3
+      // rows for each.
       Matrix<double, 9, W::size> result;
       result << point.JxW * point.trial.dt, -t * point.trial.dxi.row(0),
         -t * point.trial.dxi.row(1);
@@ -60,7 +64,8 @@ namespace Debond
     Matrix<double, 9, 1>
     forces_by_damage(const SlavePoint &point)
     {
-      const Vector3d       t = point.JxW * point.trial.traction;
+      const Vector3d t = point.JxW * point.trial.traction;
+      // with the share that is held as the only thing that changes
       Matrix<double, 9, 1> result;
       result << point.JxW * point.trial.by_damage.traction,
         -t * point.trial.by_damage.xi[0], -t * point.trial.by_damage.xi[1];
@@ -94,6 +99,8 @@ namespace Debond
         const CohesiveShare &share = shares[q];
         if (!share.holds)
           continue;
+        // A share that is held is a spring between x and y(xi) at a fixed xi:
+        // of w it knows g, a_1 and a_2 only.
         const PointMotion          motion(point, share.basis, slave);
         const Matrix<double, 9, 1> w =
           motion.gather(moved).topLeftCorner<3, 3>().reshaped();
@@ -119,7 +126,10 @@ namespace Debond
                                   Eigen::VectorXd              &result) const
   {
     gather_tangent();
-    const PaddedNets     moved = padded(nodal_motion(direction, configuration));
+    const PaddedNets moved = padded(nodal_motion(direction, configuration));
+    // Components of the chuck enter twice: they move control points, which
+    // nodal_motion() knows, and turn the way of the points, which no motion of
+    // control points alone says.
     Matrix<double, 6, 1> chuck = Matrix<double, 6, 1>::Zero();
     for (const auto &[component, number] : configuration.chuck_unknowns)
       chuck[component] = direction[number];
@@ -147,6 +157,7 @@ namespace Debond
               const PointColumns         &columns,
               Eigen::MatrixXd            &matrix)
     {
+      // rows^T (forces columns), the small product first: 9 x w times w x n
       constexpr int max = PointColumns::max_unknowns;
       const Matrix<double, 9, Eigen::Dynamic, 0, 9, max> changes =
         forces * columns.dw.topRows<n>().leftCols(columns.n);
@@ -173,12 +184,17 @@ namespace Debond
   {
     std::vector<NodalSums> by_chuck;
     for (const auto &unknown : configuration.chuck_unknowns)
+      // motions of all control points by one unknown of the chuck, once for all
+      // points
       by_chuck.push_back(
         nodal_motion(Eigen::VectorXd::Unit(matrix.cols(), unknown.second),
                      configuration));
     for (unsigned int q = 0; q < points.size(); ++q)
       {
-        const SlavePoint           &point = points[q];
+        const SlavePoint &point = points[q];
+        // up to three blocks: of the share that rubs, of the share that is
+        // held, and of how the damage of the second changes the friction of the
+        // first
         std::optional<PointColumns> rubbing;
         if (point.trial.state.status != PointStatus::open)
           {
@@ -221,6 +237,8 @@ namespace Debond
   ContactInterface::path_length(
     const InterfaceConfiguration &configuration) const
   {
+    // Mean of g_s + opening over the area that faced the implant [mm], and its
+    // exact gradient, which borders the tangent of a path.
     PathLength                result;
     PaddedNets                gradient  = padded(zero_sums(configuration));
     double                    area      = 0.;
@@ -267,6 +285,8 @@ namespace Debond
   {
     if (!law.joint->cohesion)
       return std::numeric_limits<double>::infinity();
+    // Slip has no end, damage has: a path that is measured by it ends where all
+    // that is bonded is broken.
     double left = 0., area = 0.;
     for (const SlavePoint &point : points)
       if (point.faces_implant)

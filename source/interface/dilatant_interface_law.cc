@@ -46,6 +46,9 @@ namespace Debond
       bool
       initialise() override
       {
+        // Climbing takes p dh of the work L dg_s = mu p dg_s: h' = h_inf/l at
+        // the start is the steepest, and mu without a bond is what there is in
+        // the end.
         const double least = friction->coefficient({0.}, 0.).mu;
         if (!depends_on_rate() && h_inf > least * l)
           throw EntryError(
@@ -66,6 +69,9 @@ namespace Debond
               const double      g_n,
               const double      distance) const override
       {
+        // h is taken at the end of the step, with the distance that the local
+        // problem tries: dp/dd = eps_n h' then enters its derivatives, and
+        // sliding under a held gap raises the pressure.
         const double      slip = slipped(start, distance);
         InterfaceResponse result =
           InterfaceLaw::respond(start, g_n - height(slip), distance);
@@ -82,6 +88,7 @@ namespace Debond
       double
       reach(const PointStart &start, const double distance) const override
       {
+        // [mm]: faces that have climbed by h touch up to the gap h
         return height(start.history.normal_gap < PointHistory::far ?
                         slipped(start, distance) :
                         start.history.slip);
@@ -94,6 +101,8 @@ namespace Debond
            const double      g_n,
            const double      distance) const override
       {
+        // The base class integrates friction between two pressures: those of
+        // the gaps that are left of both ends, before and after the climb.
         PointStart before = start;
         before.history.normal_gap -= height(start.history.slip);
         const double slip = slipped(start, distance), end = g_n - height(slip);
@@ -116,6 +125,7 @@ namespace Debond
       double
       height(const double slip) const
       {
+        // [mm], without loss of digits while g_s is small beside l
         return -h_inf * std::expm1(-slip / l);
       }
 

@@ -16,10 +16,10 @@ namespace Debond
 {
   namespace
   {
-    /** How far each element of several may be off the surface that all stand
-     *  for [mm]. Plane facets of a circle bulge by 1 - cos(theta/2) of its
-     *  radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above the
-     *  plane of its neighbour: three times that or more, up to theta = 60
+    /** Distance by which each of several elements may be off the surface that
+     * all stand for [mm]. Plane facets of a circle bulge by 1 - cos(theta/2) of
+     * its radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above
+     * the plane of its neighbour: three times that or more, up to theta = 60
      *  degrees, from where on there is an edge. Both directions add up.
      *  Elements that are curved themselves: a twentieth. */
     std::vector<double>
@@ -45,6 +45,9 @@ namespace Debond
                   for (const auto &place :
                        surface.places_beside(middle.element, xi))
                     {
+                      // A neighbour whose middle lies more than 30 degrees off
+                      // the tangent plane is behind an edge, and says nothing
+                      // of the curvature of this face.
                       const Eigen::Vector3d way =
                         middles[place.element].X - here.y;
                       const double height = std::abs(n.dot(way));
@@ -74,6 +77,9 @@ namespace Debond
   void
   ContactInterface::find_facets()
   {
+    // Each slave point is projected on the master at rest. Its distance is a
+    // facet's if it is no more than both elements can be off the smooth face;
+    // overlap and range of the rest are for warnings.
     const NurbsSurface &surface = mesh[master_side()]->surface();
     if (surface.is_one_patch() && mesh[slave]->surface().is_one_patch())
       return; // smooth
@@ -101,11 +107,17 @@ namespace Debond
         fits             = fits && gap <= facets + touch_tolerance;
         lowest           = std::min(lowest, rest.height);
         highest          = std::max(highest, rest.height);
+        // G in the frame of the slave at rest [mm], with both faces where they
+        // were made.
         const Eigen::Vector3d G = point.X - surface.point(rest.xi);
         if (!takes_off || gap > facets || G.norm() <= touch_tolerance)
           continue;
         at_start.largest_gap = std::max(at_start.largest_gap, G.norm());
         unsigned int number  = mesh[slave]->surface().n_control_points();
+        // As functions of four further control points, the origin of the frame
+        // and the ends of its axes, see
+        // InterfaceConfiguration::Surface::add_frame(): G turns with the frame,
+        // and interpolate() and spread() need not know of it.
         for (const double N : {G.sum(), -G[0], -G[1], -G[2]})
           {
             point.basis.control_point[point.basis.size] = number++;
@@ -130,6 +142,9 @@ namespace Debond
       return cells ? contact_surface_of(*cells, contact.degree(), side, which) :
                      contact;
     };
+    // Faces of the implant that are no contact faces, against all of the
+    // bone's: where one lies on the other within the error of facets its area
+    // counts.
     const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
                        bone   = boundary(Side::bone, FacesOfMesh::all);
     const std::vector<double> own    = errors_of_facets(others),
@@ -178,6 +193,8 @@ namespace Debond
     tangent_is_gathered = false;
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
+    // Q and C + u of the implant: the rigid motion of the first step begins
+    // here.
     accepted_frame  = configuration.side[Side::implant].frame;
     accepted_centre = configuration.chuck->centre();
     unprojected     = 0;
@@ -186,6 +203,7 @@ namespace Debond
     const SlavePoint *neighbour = nullptr;
     for (SlavePoint &point : points)
       {
+        // the guess of the search, xi of the point before
         if (neighbour != nullptr)
           point.accepted.xi = neighbour->accepted.xi;
         point.trial.normal_gap =

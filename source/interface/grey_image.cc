@@ -24,6 +24,9 @@ namespace Debond
     overlaps(const unsigned int n_fine, const unsigned int n_coarse)
     {
       std::vector<std::vector<std::pair<unsigned int, double>>> result(n_fine);
+      // The share of pixel i = [i, i + 1] in [k size, (k + 1) size], both in
+      // widths of a fine pixel. Means over areas keep the mean of the whole
+      // picture, and so the bonded share.
       const double size = double(n_fine) / n_coarse; // of a coarse pixel
       for (unsigned int i = 0; i < n_fine; ++i)
         for (auto k = static_cast<unsigned int>(i / size);
@@ -215,6 +218,8 @@ namespace Debond
         if (i % n < (n < 3 ? 1 : 3)) // no opacity
           largest = std::max<unsigned int>(largest, channels[i]);
       const double white = file.white_level(most, largest);
+      // Grey of a colour is its brightness, 30 % red, 59 % green and 11 % blue;
+      // a grey picture that was stored in colours keeps its levels.
       // libpng has multiplied channels of 16 bits by the opacity already
       const bool multiply = n % 2 == 0 && sizeof(Channel) == 1;
       for (auto pixel = channels.cbegin(); pixel != channels.cend(); pixel += n)

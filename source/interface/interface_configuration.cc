@@ -31,6 +31,9 @@ namespace Debond
                const unsigned int            component)
     {
       ControlNet result = configuration.side[Side::implant].positions;
+      // dx_A/dq_k, by the lever arm of the control point where it is now [1,
+      // mm/rad]: of components 0 to 2 along the axes, of 3 to 5 about those of
+      // the chuck
       for (auto x : result.colwise())
         x = configuration.chuck->velocity(component, x);
       return result;
@@ -48,6 +51,8 @@ namespace Debond
     NodalSums moved = zero_sums(configuration);
     for (const Side s : both_sides)
       {
+        // Entries 3 A + i of unknown_of are component i of control point A in
+        // the frame of its body; Q of the bone is the identity.
         const auto &side = configuration.side[s];
         for (unsigned int i = 0; i < side.unknown_of.size(); ++i)
           if (side.unknown_of[i] >= 0)
@@ -79,6 +84,7 @@ namespace Debond
             result[side.unknown_of[i]] += factor * in_frame(i % 3, i / 3);
       }
     for (const auto &[component, number] : configuration.chuck_unknowns)
+      // sum_A f_A . dx_A/dq_k: force or moment on this component [N, N mm]
       result[number] +=
         factor * sums[Side::implant]
                    .cwiseProduct(velocities(configuration, component))
@@ -137,6 +143,8 @@ namespace Debond
                                     const NurbsSurface           &implant,
                                     const InterfaceConfiguration &configuration)
   {
+    // Places on the implant's face, its edge included, are projected on the
+    // bone.
     std::vector<bool> under(bone.n_elements(), false);
     // dense enough to meet every element of the bone that the edge crosses
     const unsigned int samples =
@@ -161,9 +169,11 @@ namespace Debond
             configuration.side[Side::bone].positions,
             interpolate(basis, configuration.side[Side::implant].positions),
             &guess);
-          guess                              = closest.xi;
+          guess = closest.xi;
+          // also if the sample lies beyond the bone: then that of its edge
           under[bone.element_of(closest.xi)] = true;
         }
+    // a bone of several patches has no rows to fill
     if (bone.is_one_patch())
       fill_gaps(under, bone.n_elements_per_direction());
     return control_points_of(bone, under);

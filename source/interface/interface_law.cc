@@ -21,6 +21,8 @@ namespace Debond
   InterfaceLawPointer
   initialised(const std::shared_ptr<InterfaceLaw> &law)
   {
+    // A law whose parameters leave friction alone, such as a bond without
+    // strength, is no law of its own: points then take the shortest way.
     return law->initialise() ?
              law :
              initialised(std::make_shared<InterfaceLaw>(*law));
@@ -70,6 +72,9 @@ namespace Debond
   InterfaceLaw::Changing
   InterfaceLaw::bond_after(const PointStart &start, const double distance) const
   {
+    // phi of Eq. (13) at the end of the step, as (value, by gap, by distance).
+    // A law asks for it several times at the place where the step begins, which
+    // is why that decay comes along with the point, see begin().
     const bool   rests = start.frictionless || explicit_friction;
     const Decay  s     = rests || distance <= 0. ?
                            start.at_rest :
@@ -94,6 +99,12 @@ namespace Debond
   {
     if (start.frictionless)
       return;
+    // The only place at which the friction law is asked for L: by the pressure
+    // and the bonding state that the law of the interface sees. Chain rule,
+    // with pressed = (p, dp/dg_n, dp/dd) and phi likewise:
+    //
+    //   dL/dg_n = L_p dp/dg_n + L_phi dphi/dg_n,
+    //   dL/dd   = L_d + L_phi dphi/dd + L_p dp/dd.
     const FrictionLimit L =
       friction->limit(start,
                       phi[0],
@@ -126,7 +137,9 @@ namespace Debond
   {
     PointHistory history = start.history;
     history.normal_gap   = g_n;
-    history.joined       = history.joined || g_n < 0.;
+    // pressed together once, the faces of a law with strength in tension are
+    // bonded
+    history.joined = history.joined || g_n < 0.;
     if (!start.frictionless)
       {
         history.slip     = start.history.slip + distance;
@@ -164,6 +177,7 @@ namespace Debond
     PointWork result;
     if (start.frictionless || distance == 0.)
       return result;
+    // [N/mm] at the gaps of both ends; an open end has rubbed at no pressure
     const auto at = [&](const double gap) {
       return gap < 0. ? friction->work(start, -stiffness * gap, distance) :
                         PointWork();
@@ -184,6 +198,8 @@ namespace Debond
                                   const double      pressure,
                                   const double      distance) const
   {
+    // [MPa/mm] at the pressure of the trial state. The explicit law has no
+    // slope within a step; nothing that does not press softens.
     return explicit_friction || !(pressure > 0.) ?
              0. :
              friction->steepest_fall(start, pressure, distance);
@@ -208,6 +224,7 @@ namespace Debond
   std::array<double, 2>
   InterfaceLaw::left_by_each(const PointHistory &history) const
   {
+    // For maps of what opening and slip have each done to a bond, at phi_0 = 1.
     PointHistory opening = history, slip = history;
     opening.slip = 0.;
     slip.damage  = 0.;
@@ -220,6 +237,9 @@ namespace Debond
   void
   InterfaceLaw::require_bond(const std::string &law) const
   {
+    // A law with strength in tension says itself what opening does to the bond
+    // of the friction law, and multiplies its own damage into phi: there must
+    // be a bond, and no second rule for its end.
     if (opening_breaks_bond)
       throw EntryError("Interface / Opening breaks bond",
                        "with Law = " + law +

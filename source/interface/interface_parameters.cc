@@ -92,6 +92,9 @@ namespace Debond
           const auto cells = [&](const BodyParameters &body) {
             return from_file ? body.lattice_of_cells()[0] : body.cells[d];
           };
+          // n elements of the slave and m of the master on the same length:
+          // sides meet where each of the n is divided into m/gcd(n, m) pieces;
+          // for both directions the least common multiple.
           const unsigned int n = cells(mine), m = cells(other),
                              pieces = std::lcm(result, m / std::gcd(n, m));
           if (from_file ? m > n && pieces <= 4 : d == 0 || pieces <= 4)
@@ -136,6 +139,8 @@ namespace Debond
     const BodyParameters &bone,
     const BodyParameters &implant) const
   {
+    // Cells of the other body for each element of the slave, in both
+    // directions, rounded up: there is a point for each of them.
     const BodyParameters &mine  = slave == Side::bone ? bone : implant;
     const BodyParameters &other = slave == Side::bone ? implant : bone;
     double                ratio = 0.;
@@ -157,10 +162,12 @@ namespace Debond
   InterfaceParameters::joint() const
   {
     const std::shared_ptr<InterfaceLaw> law = law_choice.make();
-    law->stiffness                          = normal_penalty;
-    law->friction                           = friction;
-    law->opening_breaks_bond                = opening_breaks_bond;
-    law->explicit_friction                  = explicit_friction;
+    // The entries of `Interface' that all laws share; those of its own
+    // subsection the law has read itself.
+    law->stiffness           = normal_penalty;
+    law->friction            = friction;
+    law->opening_breaks_bond = opening_breaks_bond;
+    law->explicit_friction   = explicit_friction;
     return initialised(law);
   }
 
@@ -181,6 +188,7 @@ namespace Debond
   {
     if (friction->has_bond() || joint()->pulls())
       return bonding;
+    // a homogeneous pattern of phi_0 = 0
     BondingParameters nothing;
     nothing.initial_bonding = 0.;
     return nothing;

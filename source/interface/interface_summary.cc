@@ -83,6 +83,9 @@ namespace Debond
     const NurbsSurface &surface = mesh[slave]->surface();
     if (!surface.is_one_patch())
       return 0; // there are no rows
+    // A point counts if closed ones lie on both sides of it in its row and in
+    // its column. That is linear in the number of points, where patches would
+    // have to be searched for neighbours.
     const auto         elements = surface.n_elements_per_direction();
     const unsigned int n        = along.size();
     // element by element, and in each of them, the first parameter fastest
@@ -133,9 +136,13 @@ namespace Debond
   bool
   ContactInterface::has_opened_beyond_strength(const SlavePoint &point) const
   {
+    // Only then can the pull fall: up to the strength it rises with the gap,
+    // whatever the bond.
     const InterfaceLaw &joint = *law.joint;
     if (joint.cohesion)
       return point.trial.state.damage > point.accepted.damage;
+    // opened() is kappa, the largest gap so far, and tension.gap that of the
+    // strength
     return joint.pulls() && point.phi_0 > 0. &&
            point.trial.state.status != PointStatus::open &&
            joint.opened(point.trial.state) >
@@ -244,6 +251,7 @@ namespace Debond
       const Eigen::Vector3d f = (is_slave ? area : -area) * part.traction,
                             x = interpolate(is_slave ? point.basis : of_master,
                                             accepted_positions[Side::implant]);
+      // about the given centre, with the lever arm of the accepted state
       load.force += f;
       load.moment += (x - centre).cross(f);
       load.energy += area * part.energy;
@@ -265,6 +273,8 @@ namespace Debond
                                   const double      resistance,
                                   InterfaceSummary &summary) const
   {
+    // a bound over the distance of this step and what is still to come, by the
+    // law
     const double slope =
       law.joint->softening_by_slip(point.begin(*law.joint, mode_now),
                                    point.trial.pressure,
@@ -293,6 +303,8 @@ namespace Debond
           return point.accepted.has_partner;
         }))
       return;
+    // Heights over the accepted master: a point that was more than half as deep
+    // below it as it is now has come from the side.
     const MasterSurface before{&mesh[master_side()]->surface(),
                                &accepted_positions[master_side()],
                                mesh[master_side()]->outward_sign()};

@@ -35,6 +35,11 @@ namespace Debond
         std::max(limit_at(0.), 1e-6 * (gap.norm() + motion.norm()));
       if (!(limit > 0.))
         return 0.;
+      // Lengths here are stretches of the spring eps_t [mm], and squares of
+      // them times eps_t/2 are energies per area. First the share s of the
+      // motion after which the point can no longer stick: the positive root of
+      // a quadratic equation, in the form that loses no digits where the gap is
+      // at its limit already.
       // |gap + s motion| = (1 - s) limit, from within: s from 0 to 1
       const double a    = motion.squaredNorm() - limit * limit,
                    b    = gap.dot(motion) + limit * limit,
@@ -50,6 +55,10 @@ namespace Debond
       double                work = 0.5 * length * length;
       if (way > 0. && length > 0.)
         {
+          // From there on the limit falls evenly with what is left of the way,
+          // `left' from 1 to 0. z is the squared tangent of half the angle
+          // between gap and motion, which falls as left^power; the traction
+          // along the motion is (1 - z)/(1 + z) of the limit.
           static const dealii::QGauss<1> quadrature(6);
           const double cosine = motion.dot(then) / (way * length),
                        square = // of the tangent
@@ -117,6 +126,9 @@ namespace Debond
       (point.accepted_viscous_pressure + trial.viscous_pressure) * opened;
     for (double *work : {&viscous, &friction, &friction_bound})
       *work += viscous_slip + viscous_opening;
+    // By the law: the exact integral over the slip at the pressures of both
+    // ends, which a step that follows equilibrium comes to, too, as steps
+    // shrink.
     const PointStart start = point.begin(law, mode);
     const PointWork  by_law =
       law.work(start, trial.normal_gap, trial.state.slip - point.accepted.slip);
@@ -127,6 +139,8 @@ namespace Debond
                         held;
     if (law.friction->has_bond() && lost > 0.)
       friction += 0.5 * lost * slip.norm();
+    // Across the interface [N mm]: what viscosity and damage take. A lift has
+    // been counted as slip, but is stored in the normal spring.
     const double of_gap =
       viscous_opening + point.JxW * (by_law.damage - by_law.lift);
     adhesive += point.JxW * by_law.adhesive;
@@ -153,6 +167,7 @@ namespace Debond
   {
     if (!share.holds)
       return;
+    // The gap that bore in the accepted state has turned with the master.
     const Eigen::Vector3d gap    = frame * share.gap;
     const double          factor = 0.5 * point.JxW * share.stiffness_by_damage *
                           (point.accepted.damage - share.damage);
@@ -174,6 +189,9 @@ namespace Debond
                                    const RigidMotion            &chuck,
                                    const ControlNet             &before) const
   {
+    // The interacting point of the accepted state on the master as it lies now:
+    // an open point has no other, and the gap to it says how far the faces are
+    // apart.
     const MasterSurface surface = master(configuration);
     SurfaceBasis        basis;
     SurfaceGeometry     geometry;
@@ -207,6 +225,8 @@ namespace Debond
     // of the beginning, and where nothing has slid
     const InterfaceResponse at_start =
       joint.respond(start, point.accepted.normal_gap, 0.);
+    // Pressure at the beginning [MPa]; gap at the end [mm], over that up to
+    // which faces that have climbed carry something.
     const double p   = std::max(0., at_start.pressure),
                  g_n = trial.normal_gap -
                        (joint.pulls() ? 0. : joint.reach(start, 0.));
@@ -217,7 +237,8 @@ namespace Debond
     const double          eps_t        = law.tangential_penalty;
     const Eigen::Vector3d old_traction = frame * point.accepted_traction,
                           gap          = old_traction / eps_t;
-    const double penetration           = p / joint.stiffness;
+    // of the normal spring at the beginning [mm]
+    const double penetration = p / joint.stiffness;
     // Unloaded, the bodies move as well: while the point is closed.
     const Eigen::Vector3d by_bodies =
       motion.gap - (gap - penetration * n) - motion.by_chuck;
@@ -231,6 +252,8 @@ namespace Debond
         // only
         lost = joint.work(start, point.accepted.normal_gap, trial.path_to_edge)
                  .friction;
+        // the pressure at the edge is anything between that of the beginning
+        // and 0
         friction_bound += 0.5 * point.JxW * lost;
         lost += std::max(0., 0.5 * old_traction.dot(gap + by_bodies));
         of_springs = -0.5 * p * g_n;
@@ -249,6 +272,10 @@ namespace Debond
         // it is closed until the chuck has used up the penetration of both
         const double closed =
           (penetration + rises) / (penetration + rises + std::max(0., g_n));
+        // Spring and bodies in series: the compliance 1 + c in units of
+        // 1/eps_t, stretched by (1 + c) gap. What holds it moves by the chuck
+        // as long as the point is closed, and by what the bodies do beside
+        // giving way to this traction.
         const Eigen::Vector3d stretched = (1. + compliance) * gap,
                               moved     = closed * tangential(motion.by_chuck) +
                                       tangential(by_bodies) - compliance * gap;

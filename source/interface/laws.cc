@@ -40,6 +40,7 @@ namespace Debond
   void
   LawChoice<Law>::declare(EntryTable &table, const std::string &about)
   {
+    // The choices of the entry, and the subsection of each law, chosen or not.
     std::string names, text = about;
     for (const LawPlugin<Law> &plugin : laws)
       {
@@ -74,6 +75,8 @@ namespace Debond
     std::vector<SceneEntry>
     entries_of(Law &law)
     {
+      // A table is filled for its rows only: names, values and units of one
+      // law.
       EntryTable table;
       table.enter_subsection("Interface");
       law.declare(table);
@@ -115,6 +118,7 @@ namespace Debond
   create_friction_law(const LawChoice<FrictionLaw> &choice)
   {
     const std::shared_ptr<FrictionLaw> law = choice.make();
+    // from here on it is pure, and points of all threads ask it
     law->initialise();
     return law;
   }

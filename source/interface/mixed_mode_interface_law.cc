@@ -29,6 +29,9 @@ namespace Debond
       bool
       initialise() override
       {
+        // The measure of a path, the strength for messages and the steepest
+        // fall are those of the bond; friction contributes nothing to them, as
+        // its coefficient is that of broken faces throughout.
         require_bond("mixed mode");
         bond.check();
         tension                 = bond.tension();
@@ -48,6 +51,9 @@ namespace Debond
         if (start.history.joined && std::abs(g_n) < 1e-9 * bond.N / bond.K)
           result.pressure_by_gap =
             -std::max(stiffness, start.phi_0 * (1. - start.damage) * bond.K);
+        // Of the area of the point the share phi_0 (1 - omega) is held and rubs
+        // nowhere; omega is that of the end of the step, and dL/domega goes
+        // into the tangent beside domega/dw of the CohesiveShare.
         const double bonded    = start.history.joined ? start.phi_0 : 0.,
                      rubs      = 1. - bonded * (1. - start.damage);
         result.limit_by_damage = bonded * result.limit;
@@ -79,9 +85,11 @@ namespace Debond
           return result;
         PointStart before = start;
         before.damage     = start.history.damage;
-        const double L_n  = respond(before, start.history.normal_gap, 0.).limit,
-                     L    = respond(start, g_n, distance).limit;
-        result.friction   = 0.5 * (L_n + L) * distance;
+        // A trapezoid between the limits of both ends [N/mm]: damage grows in
+        // the step, and the share that rubs with it.
+        const double L_n = respond(before, start.history.normal_gap, 0.).limit,
+                     L   = respond(start, g_n, distance).limit;
+        result.friction  = 0.5 * (L_n + L) * distance;
         result.friction_bound = 0.5 * std::abs(L - L_n) * distance;
         return result;
       }

@@ -40,6 +40,9 @@ namespace Debond
                    const Side      slave,
                    const Normal   &normal) const
   {
+    // Velocities times the duration of the step [mm] of the point with the
+    // lever arm r from the centre, at the first and at the last moment. The
+    // screw has the same axis all the time.
     const auto velocity = [&](const Vector3d &r) {
       return Vector3d(centre - old_centre + axis.cross(r));
     };
@@ -76,6 +79,7 @@ namespace Debond
   {
     const auto [n, first, last, rolled] = way(x, slave, normal);
     // along the axis alone it goes nowhere over the master, but for rounding
+    // of the parts of both velocities in the tangent plane, times their lengths
     const double sine   = n.dot(first.cross(last)),
                  cosine = first.dot(last) - n.dot(first) * n.dot(last);
     return std::hypot(sine, cosine) > 1e-12 * first.norm() * last.norm() ?
@@ -101,7 +105,9 @@ namespace Debond
                                 const Normal   &normal) const
   {
     const auto [n, first, last, rolled] = way(x, slave, normal);
-    const Vector3d across_both          = first.cross(last);
+    // d angle = (cos dsin - sin dcos)/(sin^2 + cos^2), with sine and cosine as
+    // in turn_of_way(), which are not normalised.
+    const Vector3d across_both = first.cross(last);
     const double   f_n = n.dot(first), l_n = n.dot(last),
                  sine   = n.dot(across_both),
                  cosine = first.dot(last) - f_n * l_n,
@@ -121,15 +127,18 @@ namespace Debond
     // the first velocity is turned, or the lever arm of the last one
     const bool     is_bone = slave == Side::bone;
     const Vector3d r       = x - old_centre;
+    // the gradient of the angle by both velocities is passed on to what moves
+    // them: translation of the centre, rotation vector a, and lever arm
     const Vector3d by_velocity =
       is_bone ? Vector3d(turn.transpose() * by_first) : by_first;
     const Vector3d arm    = is_bone ? Vector3d(x - centre) : Vector3d(turn * r);
     const Vector3d by_arm = by_last.cross(axis);
     const Vector3d by_axis = r.cross(by_velocity) + arm.cross(by_last);
     const double   t       = axis.norm();
-    const double   c =
+    // c of J^-1; its series where 1/t^2 and the rest would cancel
+    const double c =
       t < 0.01 ? 1. / 12. + t * t / 720. :
-                   1. / (t * t) - (1. + std::cos(t)) / (2. * t * std::sin(t));
+                 1. / (t * t) - (1. + std::cos(t)) / (2. * t * std::sin(t));
     const Vector3d across = axis.cross(by_axis);
     by.spin               = by_axis + 0.5 * across + c * axis.cross(across);
     by.centre             = by_velocity + by_last;

@@ -111,6 +111,8 @@ namespace Debond
      *  limit, which runs from @p old_limit by @p change [mm]. */
     struct Beginning
     {
+      // fraction of the way, the part of the chord behind it, the gap there
+      // [mm] and the direction in which the point goes
       double fraction = 0.;
       Vector part     = 0., gap, direction;
       double limit    = 0.; ///< [mm]
@@ -192,6 +194,10 @@ namespace Debond
                                       Vector(gap.imag(), 1. - gap.real());
         w /= length_of(w);
         // C and S, and dS/dq, times e^-scale; dC/dq is S/2
+        // exp(M) of a traceless 2 x 2 matrix, M^2 = q 1: hyperbolic where the
+        // string turns towards the path faster than the path turns away, else
+        // circular, and a series in between. e^-scale keeps long ways from
+        // overflowing.
         const double q = x * x - k * k;
         double C = 1. + 0.5 * q + q * q / 24., S = 1. + q / 6. + q * q / 120.,
                S_q = 1. / 6. + q / 60., scale = 0.;
@@ -235,10 +241,13 @@ namespace Debond
 
     using Row = Eigen::Matrix<double, 1, 7>;
 
-    /** How the string lies when sliding begins, and how far the point then has
+    /** The string when sliding begins, and the way that the point then has
      *  to go, with derivatives like those of TowedGap. */
     struct Start
     {
+      // The columns of all rows are those of TowedGap::derivative: old gap (2),
+      // motion (2), limit at the end, length of the gap at the end, turn of the
+      // path.
       double way, length; ///< [mm]
       Vector unit;        ///< along the gap, from the path's direction
       Row    d_way, d_length;
@@ -262,6 +271,9 @@ namespace Debond
         };
         const double f = beginning.fraction;
         // of v . (old_gap + part * motion) at a fixed fraction
+        // In complex numbers the gap where sliding begins is old_gap + part
+        // motion, and its derivative along v that of both terms: conj(part)
+        // turns v back.
         const Vector by_turn = path.part_by_turn(f) * path.motion;
         const auto   of_gap  = [&](const Vector &v) {
           Row result = row(v, v * std::conj(beginning.part));
@@ -300,6 +312,10 @@ namespace Debond
 
   TowedGap::TowedGap(const Step &step)
   {
+    // Three stages: the way without sliding, up to the place where the string
+    // is as long as its limit; the turning of the string on the rest of the
+    // way, with the mean of its lengths; and the distance slid, which is what
+    // the string has been pulled by less what it has become longer.
     const Path      path(step.motion, step.arc);
     const Beginning beginning(path,
                               {step.old_gap[0], step.old_gap[1]},
@@ -318,6 +334,9 @@ namespace Debond
     direction         = {tau.real(), tau.imag()};
     distance = mean_length * turning.growth + start.length - step.length;
 
+    // The same three stages backwards. L of the turning is half the length at
+    // the beginning of sliding and half that at the end, column 5. Angles add
+    // up: of the chord, of the gap to it, and half of the turn of the path.
     Row d_mean = 0.5 * start.d_length;
     d_mean[5] += 0.5;
     Eigen::Matrix<double, 3, 7> d;

@@ -61,7 +61,7 @@ namespace Debond
 
 
 
-    /** Whether the implant is pressed and tilted so little that strains of the
+    /** True if the implant is pressed and tilted so little that strains of the
      *  bone are below a hundredth. They are about its way over its radius or
      *  the thickness of the bone, and of a load the pressure over Young's
      *  modulus; and what friction adds, mu p / G. */
@@ -145,7 +145,7 @@ namespace Debond
 
   namespace
   {
-    /** What the machine had when the program began [GB], so that the choice is
+    /** Memory of the machine when the program began [GB], so that the choice is
      *  the same at all times. */
     double
     memory_of_machine()

@@ -8,6 +8,9 @@ namespace Debond
   ChuckPath::Lengths
   ChuckPath::distances(const Place &from, const Place &to) const
   {
+    // The distance between two places by component [mm, rad, N, N mm]: loads
+    // and the rotation about z count alone, driven translations and driven
+    // tilts as vectors, which may go round a curve.
     Lengths squares = Lengths::Zero();
     for (unsigned int k = 0; k <= interference; ++k)
       {
@@ -28,6 +31,8 @@ namespace Debond
                  const double        to,
                  const TimeFunction &thickening)
   {
+    // What a step has missed is the length of the way, as a chain of 32 chords,
+    // less that of its own chord: nothing where each component goes one way.
     constexpr unsigned int n_parts  = 32;
     constexpr double       rounding = 1e-9;
     const auto             place_at = [&](const double time) {
@@ -44,6 +49,8 @@ namespace Debond
         length_now += distances(here, next);
       }
     const Lengths missed_now = length_now - distances(start, next);
+    // A share of all the way so far, but only of components that this step has
+    // missed: a run is not blamed again for a step that is long past.
     length += length_now;
     missed += missed_now;
     missed_shares = (missed_now.array() >

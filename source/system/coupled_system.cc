@@ -9,7 +9,7 @@
 #include <cmath>
 #include <sstream>
 
-// The coupled system, which sections 6 and 9 of doc/developers/walk.md are
+// The coupled system, which sections 6 and 7 of doc/developers/walk.md are
 // about: two bodies, the chuck and the interface between them. In the paper it
 // is Appendix A.3; what the paper leaves open is how to solve it, see
 // doc/explanation/solution.md.
@@ -366,7 +366,7 @@ namespace Debond
       {
         update_configuration();
         const TimedSection t(timer, "contact");
-        // Every slave point by itself, station 7. A point whose equations (29),
+        // Every slave point by itself. A point whose equations (29),
         // (30) could not be solved ends the attempt.
         if (!interface.evaluate(configuration, mode))
           {
@@ -438,7 +438,7 @@ namespace Debond
 
 
 
-  // One Newton correction, section 9 of doc/developers/walk.md,
+  // One Newton correction, section 7 of doc/developers/walk.md,
   //
   //   (S + Q^T (df/dx) Q) dv_c = -r,
   //

@@ -19,6 +19,9 @@ namespace Debond
     if (started)
       {
         const Chuck::Vector6 dq = state.position - last.position;
+        // A trapezoid, as for the dissipation of the points: with the same rule
+        // on both sides the balance holds to the bound of what forces change
+        // within the step.
         W += 0.5 * (state.forces + last.forces).dot(dq) + state.press_fit -
              last.press_fit;
         bound +=
@@ -99,7 +102,10 @@ namespace Debond
     if (started)
       {
         const Chuck::Vector6 dq = state.position - last.position;
-        const double put_in     = 0.5 * (state.forces + last.forces).dot(dq) +
+        // Energy that goes in and neither is stored nor dissipated by the law
+        // has been released in a jump: inertia, which the model leaves out,
+        // would have it.
+        const double put_in = 0.5 * (state.forces + last.forces).dot(dq) +
                               state.press_fit - last.press_fit;
         work += put_in;
         largest_work = std::max({largest_work, std::abs(work), state.stored});

@@ -164,8 +164,8 @@ namespace Debond
     for (unsigned int iteration = 0; true; ++iteration)
       {
         // The residual r = S v_c + Q^T f(v_c) of the state that the last
-        // correction led to, by the law of each point (section 7 of
-        // doc/developers/walk.md). In the very first round closed points may
+        // correction led to, by the law of each point
+        // (doc/developers/point.md). In the very first round closed points may
         // have to stick, whatever their traction: with the tangent of sticking
         // points the first correction cannot make them cycle.
         ContactPointMode mode = options.points;

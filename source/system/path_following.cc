@@ -29,6 +29,8 @@ namespace Debond
         left > 1e-2 * parameters.smallest_step_fraction * largest_slip)
       {
         // no further than a straight line can be trusted, or a planned step
+        // Slip and time of the predictor go on along the line through the last
+        // two states; the ratio says how far, in parts of the last step.
         step.ratio = std::min(std::min(slip_size, left) / last_slip_step, 2.);
         if (last_time_step > 0.)
           step.ratio = std::min(step.ratio, planned / last_time_step);
@@ -53,6 +55,8 @@ namespace Debond
                       const StepState   &state,
                       const unsigned int iterations)
   {
+    // A step by slip that goes beyond the last time, and one by time that
+    // slides more than a step may, are not taken: both are made anew, smaller.
     const double slipped = state.path_length - path_length;
     if (step.by_slip() && state.time > end)
       {
@@ -92,6 +96,7 @@ namespace Debond
   {
     if (!step.by_slip())
       return reject_time(step);
+    // the time is prescribed in the next attempt, see next()
     slip_failed = true;
     time_failed = false;
     slip_size   = 0.5 * step.slip;

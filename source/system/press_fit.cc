@@ -13,6 +13,9 @@ namespace Debond
   {
     if (!interface.has_interference())
       return;
+    // A thicker implant is one whose face stands further out by half of the
+    // interference, in the direction of BodyGeometry::outwards(): control
+    // points move, and the face with them.
     interference  = read_time_function(interface.interference,
                                       implant.characteristic_radius());
     const auto &X = face.control_points();
@@ -38,6 +41,7 @@ namespace Debond
   {
     if (is_none())
       return;
+    // conjugate to `half': work per thickness, over all control points [N]
     const double force = forces.cwiseProduct(outwards).sum();
     accepted_work += 0.5 * (accepted_force + force) * (half - accepted_half);
     accepted_bound +=

@@ -28,6 +28,8 @@ namespace Debond
   Step
   PlannedSteps::next()
   {
+    // `done' and `size' are shares of the planned step, `size' a power of two:
+    // what was halved so ends exactly where the whole was to end.
     if (row_is_complete())
       {
         ++current;
@@ -61,6 +63,8 @@ namespace Debond
   bool
   PlannedSteps::reject(const Step &, const bool)
   {
+    // another attempt at half the size, unless that is less than the scene
+    // allows
     size *= 0.5;
     return size >= parameters.smallest_step_fraction;
   }

@@ -74,6 +74,9 @@ namespace Debond
       void
       vmult(Vector &y, const Vector &x) const
       {
+        // C first: all ranks have the same few values and form the forces of
+        // all points, which is little beside the bone; each adds those that it
+        // owns.
         const Eigen::VectorXd at_unknowns = unknowns_of(x);
         Eigen::VectorXd       forces;
         {
@@ -92,6 +95,7 @@ namespace Debond
       {
         {
           const TimedSection t(timer, "cycles");
+          // one V-cycle in the place of K^-1, and beside it the exact B_tt^-1
           bone.cycle(x.begin(), y.begin());
         }
         if (n_own_beside > 0)
@@ -143,6 +147,8 @@ namespace Debond
     std::copy(b_of_bone.begin(), b_of_bone.end(), right.begin());
     if (Ranks::is_first())
       system.put_beside(b.tail(b.size() - n_in_contact), right);
+    // The tolerance is relative to the right-hand side, of bone and the rest
+    // together. GMRES keeps at most 60 vectors and begins anew after that.
     const double  norm = right.l2_norm();
     WholeSolution result;
     if (norm != 0.) // NaN included, which does not converge

@@ -1,13 +1,13 @@
 #!/usr/bin/perl
-# Checks doc/developers/walk.md and equations.md: every function that they name with a file, `function` (`path`) in
-# walk.md and in a row of the table of equations.md, is there, with its class; each part of walk.md names one; and
-# what its parts name as `name` exists in the sources.
-#   walk.pl DIRECTORY walk.md|equations.md
+# Checks doc/developers/walk.md, point.md and equations.md: every function that they name with a file, `function` (`path`)
+# in the first two and in a row of the table of equations.md, is there, with its class; each part of the first two names one;
+# and what these parts name as `name` exists in the sources.
+#   walk.pl DIRECTORY walk.md|point.md|equations.md
 use strict;
 use warnings;
 
 my ($root, $page) = @ARGV;
-die "usage: walk.pl DIRECTORY walk.md|equations.md\n" unless defined $page && $page =~ m{^(walk|equations)\.md$};
+die "usage: walk.pl DIRECTORY walk.md|point.md|equations.md\n" unless defined $page && $page =~ m{^(walk|point|equations)\.md$};
 my $wrong = 0;
 sub mistake
 {
@@ -32,12 +32,12 @@ sub check_function
   mistake("$place: $path has no $class.") if defined $class && $source !~ m{\b\Q$class\E\b};
 }
 
-if ($page eq 'walk.md')
+if ($page ne 'equations.md')
 {
   my @parts = $text =~ m{^(## .*?)(?=^## |\z)}msg;
   my $all = '';
   for my $path (glob("$root/source/*/*.cc $root/include/debond/*/*.h")) { $all .= text_of(substr $path, 1 + length $root); }
-  for my $n (1 .. 10)
+  for my $n (1 .. ($page eq 'walk.md' ? 8 : 6))
   {
     my ($part) = grep { m{^## $n\. } } @parts;
     if (!defined $part) { mistake("there is no part $n."); next; }

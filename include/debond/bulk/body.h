@@ -39,7 +39,7 @@ namespace Debond
     {
       return body_mesh.surface();
     }
-    /** How it resists; null: not at all to forces, and completely to moving, as
+    /** Stiffness; null: not at all to forces, and completely to moving, as
      *  a rigid body does. */
     const Bulk *
     bulk() const
@@ -58,7 +58,7 @@ namespace Debond
       return whole_bulk;
     }
 
-    /** Whether its strains are small, if it has any: its tangent is the same in
+    /** True if its strains are small, if it has any: its tangent is the same in
      *  every state, and moments balance with the lever arms of the reference
      *  configuration instead of X + v. */
     virtual bool
@@ -146,7 +146,7 @@ namespace Debond
      *  its equilibrium shape. */
     void
     commit(double time, bool surface_is_seen);
-    /** Whether what lies beside the contact unknowns has been left behind by
+    /** True if what lies beside the contact unknowns has been left behind by
      *  commit(), and giving it, in trial and accepted states, the equilibrium
      *  shape that belongs to them: no history is changed. */
     bool
@@ -175,7 +175,7 @@ namespace Debond
 
     /** @name What is reported */
     //@{
-    /** What the supports exert on the body in its frame, by the @p residual of
+    /** Reaction of the supports on the body in its frame, by the @p residual of
      *  the trial state: force [N] and moment about @p centre [N mm]. */
     Eigen::Matrix<double, 6, 1>
     support_reaction(const Eigen::Vector3d &centre,
@@ -190,8 +190,8 @@ namespace Debond
     /** Cauchy stress at the mesh vertices, see Bulk. @p v: of all nodes. */
     std::vector<Eigen::Matrix3d>
     vertex_stress(const Eigen::VectorXd &v) const;
-    /** How far large strains and rotations, left out by a body with small ones,
-     *  would change its trial state under the same contact forces: Newton's
+    /** Error of small strains: by how much large strains and rotations would
+     *  change its trial state under the same contact forces: Newton's
      *  first correction of a Neo-Hookean body, over the displacement, in the
      *  norm of S. Infinite if a cell is turned inside out. Costs about as much
      *  as an iteration of such a body. */

@@ -47,8 +47,8 @@ namespace Debond
     {
       /** r_c - K_ci K_ii^-1 r_i in the unknowns, or r_c of a WholeBulk. */
       Eigen::VectorXd condensed;
-      /** What CondensingBulk::correction() needs to know of r_i, empty: r_i =
-       * 0; or what this rank owns of the r of a WholeBulk. */
+      /** Part of r_i that CondensingBulk::correction() goes on from, empty: r_i
+       * = 0; or the part of this rank of the r of a WholeBulk. */
       Eigen::VectorXd interior;
       double          norm_squared     = 0; ///< |r|^2 [N^2]
       double          interior_squared = 0; ///< |r_i|^2 [N^2]

@@ -89,7 +89,7 @@ namespace Debond
     {
       return body_parameters.element == ElementKind::spline;
     }
-    /** Whether its cells form a lattice, in columns from the contact face. */
+    /** True if its cells form a lattice, in columns from the contact face. */
     bool
     has_lattice() const
     {
@@ -119,8 +119,8 @@ namespace Debond
     {
       return *bulk_mapping;
     }
-    /** What nodes follow, and what is held, over 3 n_nodes() degrees of
-     *  freedom. */
+    /** Constraints of nodes that follow others or are held, over 3 n_nodes()
+     * degrees of freedom. */
     const dealii::AffineConstraints<double> &
     constraints() const
     {
@@ -198,7 +198,7 @@ namespace Debond
     {
       return own_nodes;
     }
-    /** Whether cells have nodes that follow others: hanging nodes, or those of
+    /** True if cells have nodes that follow others: hanging nodes, or those of
      *  a cell that touches the contact face at an edge or a corner only. */
     bool
     cells_have_followers() const

@@ -34,7 +34,7 @@ namespace Debond
     };
   };
 
-  /** Whether a component is an angle or a moment. */
+  /** True if a component is an angle or a moment. */
   constexpr bool
   is_rotation(const unsigned int component)
   {
@@ -52,16 +52,16 @@ namespace Debond
     bool                     over_angle = false; ///< the file; else over time
     std::vector<std::string> columns;            ///< empty: recognised
     double stiffness = 0; ///< of the machine [N/mm or N mm/rad]; 0: rigid
-    /** Whether value, file and function are those of `Press', positive into the
+    /** True if value, file and function are those of `Press', positive into the
      *  bone. */
     bool into_bone = false;
-    /** What the file says, over time or over the angle [deg]; null: none. */
+    /** Curve of the file, over time or over the angle [deg]; null: none. */
     std::shared_ptr<const MonotoneCurve> table;
     /** Of time, in the same units: if it is set, it counts instead of the
      *  expression. For scenes that a program makes; no entry of a file. */
     std::function<double(double)> function;
 
-    /** Whether its place is an unknown: under a load, or on a spring. */
+    /** True if its place is an unknown: under a load, or on a spring. */
     bool
     is_unknown() const
     {
@@ -115,8 +115,8 @@ namespace Debond
     void
     read_tables();
 
-    /** What the scene wants of a component, in the units of its value; @p
-     *  radius is the `R` of expressions [mm]. */
+    /** Value that the scene prescribes to a component, in the units of its
+     * value; @p radius is the `R` of expressions [mm]. */
     TimeFunction
     value_over_time(unsigned int component, double radius) const;
 
@@ -198,7 +198,7 @@ namespace Debond
      *  differences, within a fifth of the @p duration of the step. */
     Vector6
     rates(double time, double duration = 1e100) const;
-    /** Whether a component is where the scene wants it, at any load. */
+    /** True if the place of a component is prescribed, at any load. */
     bool
     is_prescribed(const unsigned int k) const
     {
@@ -235,7 +235,7 @@ namespace Debond
     {
       move_to(q + dq * Vector6::Unit(component));
     }
-    /** What it has moved since the accepted state. */
+    /** Motion since the accepted state. */
     Vector6
     change() const
     {
@@ -331,7 +331,7 @@ namespace Debond
       return b[k - 3];
     }
 
-    /** How it turns while the chuck moves at @p rates. */
+    /** Rate of the axis while the chuck moves at @p rates. */
     Eigen::Vector3d
     axis_rate(const unsigned int k, const Vector6 &rates) const
     {

@@ -43,7 +43,7 @@ namespace Debond
     Eigen::VectorXd
     schur_solve(const Eigen::VectorXd &b) const;
 
-    /** What is left of a vector r over all unknowns. */
+    /** A vector r over all unknowns, condensed. */
     struct Condensed
     {
       Eigen::VectorXd condensed; ///< r_c - K_ci K_ii^-1 r_i

@@ -17,11 +17,11 @@ namespace Debond
     product(const Eigen::VectorXd &x) const = 0;
     virtual Eigen::VectorXd
     solve(const Eigen::VectorXd &b) const = 0;
-    /** Whether there is S as a dense matrix; the coupled system must else do
+    /** True if there is S as a dense matrix; the coupled system must else do
      *  with products and solves. */
     virtual bool
     is_dense() const = 0;
-    /** That matrix; formed at every call. */
+    /** S as a dense matrix; formed at every call. */
     virtual Eigen::MatrixXd
     dense_stiffness() const = 0;
 

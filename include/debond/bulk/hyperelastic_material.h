@@ -46,7 +46,7 @@ namespace Debond
   class HyperelasticMaterial
   {
   public:
-    /** That of a law with the templates stress(H, P), energy(H) and
+    /** Material of a law with the templates stress(H, P), energy(H) and
      *  tangent(H, C) for a Number, as NeoHookean has them. */
     template <typename Law>
     explicit HyperelasticMaterial(const Law &law)

@@ -13,8 +13,8 @@
 
 namespace Debond
 {
-  /** What the mirrors x -> -x and y -> -y make of a body that is its own image
-   *  in both. */
+  /** Symmetry of a body that is its own image in the mirrors x -> -x and
+   *  y -> -y. */
   class MirrorSymmetry
   {
   public:
@@ -23,7 +23,7 @@ namespace Debond
     static std::optional<MirrorSymmetry>
     of(const BulkSpace &space, const EnrichedCells &cells);
 
-    /** How many cells there are of a cell's kind if mirror images are one kind;
+    /** Number of cells of a cell's kind if mirror images are one kind;
      *  0 if another of its kind stands for it. */
     unsigned int
     n_images(const unsigned int cell) const
@@ -55,12 +55,12 @@ namespace Debond
    */
   struct DofClass
   {
-    /** What @p constraints leave, which are those of the space and maybe such
-     *  that make a degree of freedom a multiple of another one. */
+    /** Unknowns that @p constraints leave, which are those of the space and
+     * maybe such that make a degree of freedom a multiple of another one. */
     DofClass(const BulkSpace                         &space,
              const dealii::AffineConstraints<double> &constraints);
 
-    unsigned int        n = 0;       ///< how many there are
+    unsigned int        n = 0;       ///< number of unknowns
     std::vector<int>    number;      ///< of a degree of freedom; -1: none
     std::vector<double> coefficient; ///< of the degree of freedom in it
 

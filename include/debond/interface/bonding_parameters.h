@@ -9,6 +9,9 @@ namespace Debond
   class EntryTable;
   struct BodyParameters;
 
+  /** Patterns of phi_0, in the order of their names in the scene: one that is
+   *  the same everywhere, two by the radius, one by chance, and three that are
+   *  given place by place. */
   enum class BondingPatternKind
   {
     homogeneous,
@@ -19,13 +22,14 @@ namespace Debond
     image,
     file
   };
+  /** Parts of the contact face that have one phi_0 each. */
   enum class BondingResolution
   {
     element,
     quadrature_point
   };
 
-  /** How messages name the subsection. */
+  /** Name of the subsection in messages. */
   inline const std::string bonding_section = "Interface / Bonding / ";
 
   /** The subsection `Interface / Bonding` of a scene. */

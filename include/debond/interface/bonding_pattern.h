@@ -55,7 +55,7 @@ namespace Debond
     double
     at(const Eigen::Vector2d &xi) const;
 
-    /** What the pattern amounts to. */
+    /** Areas and means of the pattern. */
     struct Report
     {
       double       area        = 0; ///< of the contact face [mm^2]
@@ -63,7 +63,7 @@ namespace Debond
       double       bonded_area = 0; ///< integral of phi_0 over the face [mm^2]
       unsigned int patches     = 0; ///< see patches()
       double       largest_patch = 0; ///< bonded area of the largest [mm^2]
-      std::string  remark; ///< what a user should know of it, if anything
+      std::string  remark;            ///< for the user, if there is one
     };
     const Report &
     report() const

@@ -7,7 +7,7 @@
 
 namespace Debond
 {
-  /** What a CohesiveShare remembers; of fixed size, see SavedState. */
+  /** History of a CohesiveShare; of fixed size, see SavedState. */
   struct CohesiveHistory
   {
     /** Where it is bonded: parameters of the master. */
@@ -31,7 +31,8 @@ namespace Debond
            const Eigen::Vector3d &x,
            const MasterSurface   &master);
 
-    /** What its damage dissipates per area on the straight way from the gap
+    /** Work that its damage dissipates per area on the straight way from the
+     * gap
      *  @p before, by the law [N/mm]. */
     double
     damage_work(const InterfaceLaw    &law,
@@ -50,6 +51,7 @@ namespace Debond
     /** By the gap x - y and the tangents a_1 and a_2 there. */
     Eigen::Matrix<double, 3, 9> dt;      ///< of the traction
     Eigen::Matrix<double, 1, 9> ddamage; ///< of the damage
+    //@}
 
     /** See serialization.h. */
     template <class Archive>

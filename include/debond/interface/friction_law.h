@@ -27,7 +27,7 @@ namespace Debond
     bool joined = false;
     /** The bond is gone for good: by opening. */
     bool broken = false;
-    /** How far opening has damaged the bond, by a law with strength in tension:
+    /** Damage of the bond by opening, of a law with strength in tension:
      *  what the number means is that law's own affair. */
     double            damage = 0;
     InternalVariables internal{};
@@ -98,11 +98,11 @@ namespace Debond
   /** Works per area of a point in a step [N/mm]. */
   struct PointWork
   {
-    double friction = 0; ///< what the law lets the slip dissipate
-    /** How far that may be wrong, as pressure and speed change meanwhile. */
+    double friction = 0; ///< dissipated by slip, by the law
+    /** Bound of its error, as pressure and speed change meanwhile. */
     double friction_bound = 0;
     double damage         = 0; ///< dissipated by opening
-    double adhesive       = 0; ///< what the bond accounts for of both
+    double adhesive       = 0; ///< part of both that breaks the bond
     double lift = 0; ///< work of slip that is stored: it parts the faces
   };
 
@@ -228,7 +228,7 @@ namespace Debond
               L.by_slip / pressure};
     }
 
-    /** Whether phi matters: a bonded point that opens is worth a warning. */
+    /** True if phi matters: a bonded point that opens is worth a warning. */
     bool
     has_bond() const
     {

@@ -62,8 +62,8 @@ namespace Debond
                   double                        factor,
                   Eigen::VectorXd              &result);
 
-  /** What work(q, sums) adds up to over q in [0, n), from @p zero on, formed in
-   *  parts as for_each_chunk() says. */
+  /** Sums of what work(q, sums) adds over q in [0, n), from @p zero on, formed
+   * in parts as for_each_chunk() says. */
   template <typename Sums, typename Work>
   Sums
   sum_in_chunks(const unsigned int n, const Sums &zero, const Work &work)

@@ -24,7 +24,7 @@ namespace Debond
     double limit_by_damage  = 0; ///< of the share that is held [MPa]
     double energy           = 0; ///< stored across the interface [N/mm]
     double viscous_pressure = 0; ///< the part of p that speed makes up [MPa]
-    /** Whether the viscosity resists sliding, beside L. */
+    /** True if the viscosity resists sliding, beside L. */
     bool resists = false;
   };
 
@@ -166,14 +166,14 @@ namespace Debond
     {
       return tension.strength > 0.;
     }
-    /** How far a point has been opened [mm], which never falls: with the
+    /** Opening that a point has come to [mm], which never falls: with the
      *  sliding distance what a path of equilibrium is measured by. */
     double
     opened(const PointHistory &history) const
     {
       return cohesion ? 0. : history.damage;
     }
-    /** Whether friction depends on the duration of a step. */
+    /** True if friction depends on the duration of a step. */
     bool
     depends_on_rate() const
     {
@@ -237,7 +237,7 @@ namespace Debond
     double        viscosity      = 0;
     SlipDirection slip_direction = SlipDirection::integrated;
 
-    /** Whether a viscosity resists sliding or opening. */
+    /** True if a viscosity resists sliding or opening. */
     bool
     is_viscous() const
     {

@@ -11,6 +11,8 @@ namespace Debond
   /** The subsection `Interface` of a scene. */
   struct InterfaceParameters
   {
+    /** Body that carries the quadrature points. With the implant each of them
+     *  stays in contact while the face slides over the bone, which is wider. */
     Side         slave               = Side::implant;
     unsigned int quadrature_points   = 0;   ///< per direction, 0: auto
     double       normal_penalty      = 585; ///< eps_n [MPa/mm]
@@ -45,8 +47,8 @@ namespace Debond
 
     /** Most points per direction and slave surface element. */
     static constexpr unsigned int most_points = 64;
-    /** What `Quadrature points' comes to, per direction and slave surface
-     *  element. */
+    /** Gauss points that `Quadrature points' comes to, per direction and slave
+     * surface element. */
     dealii::Quadrature<1>
     points_per_element(const BodyParameters &bone,
                        const BodyParameters &implant) const;
@@ -59,7 +61,7 @@ namespace Debond
     InterfaceLawPointer
     joint() const;
 
-    /** Whether it is that of the paper, friction under pressure. */
+    /** True if it is that of the paper, friction under pressure. */
     bool
     is_friction_only() const
     {
@@ -73,12 +75,12 @@ namespace Debond
       return law().is_viscous();
     }
 
-    /** What governs the points. */
+    /** Law and numbers that govern the points. */
     ContactPointLaw
     law() const;
 
-    /** What is bonded: nothing if neither friction nor tension knows a bond,
-     *  whatever the scene says. */
+    /** Bonding of the law: nothing if neither friction nor tension knows a
+     * bond, whatever the scene says. */
     BondingParameters
     bonding_of_law() const;
 

@@ -72,6 +72,8 @@ namespace Debond
     std::string entry;
 
   public:
+    // Plug-ins are copied with the choice: parameters of all laws are part of a
+    // scene, so that scenes can be values.
     std::string                 law; ///< the name of what is chosen
     std::vector<LawPlugin<Law>> laws = all_laws<Law>();
   };

@@ -54,6 +54,8 @@ namespace Debond
     void
     declare_coefficients(EntryTable &table);
 
+    // Values of data set 1 of the paper until a scene says otherwise; mu_ub =
+    // mu_b has a bond that changes no friction.
     ModifiedCoulombParameters parameters;
     Coefficients              coefficients;
   };

@@ -15,13 +15,13 @@ namespace Debond
     of_implant(const InterfaceConfiguration &configuration);
   };
 
-  /** How the implant moves in a step, as a rigid body whose centre goes
+  /** Motion of the implant in a step, as a rigid body whose centre goes
    *  straight while it turns evenly. */
   struct RigidMotion
   {
     RigidMotion(const Place &old_place, const Place &place);
 
-    /** How far it moves a point of the slave that was at @p x, as the master
+    /** Displacement of a point of the slave that was at @p x, as the master
      *  sees it, in space at the end [mm]. */
     Eigen::Vector3d
     over_master(const Eigen::Vector3d &x, const Side slave) const

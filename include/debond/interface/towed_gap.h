@@ -8,7 +8,7 @@
 
 namespace Debond
 {
-  /** What is to be known of an arc that turns by an angle. */
+  /** Arc that turns by an angle: chord and end of one of length 1. */
   struct Arc
   {
     explicit Arc(const double turn = 0.)
@@ -27,8 +27,8 @@ namespace Debond
 
 
   /**
-   * How the gap of a sliding point turns in a step, and how far the point
-   * slides: the variant `integrated' of Expert / Slip direction.
+   * Gap of a sliding point, as it turns in a step, and the distance that the
+   * point slides: the variant `integrated' of Expert / Slip direction.
    *
    * In the tangent plane the tangential gap g is a string that tows its anchor,
    * the interacting point. The point moves along a path, seen from the master;
@@ -46,7 +46,7 @@ namespace Debond
    */
   struct TowedGap
   {
-    /** What is known of the step, in the tangent plane. */
+    /** Gap, motion and limits of the step, in the tangent plane. */
     struct Step
     {
       const Arc      &arc;        ///< of the path

@@ -39,7 +39,7 @@ namespace Debond
     {
       return missed_shares.maxCoeff();
     }
-    /** That share and whose it is, for messages. */
+    /** Largest share and its component, for messages. */
     std::string
     describe() const;
 

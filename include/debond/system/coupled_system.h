@@ -150,7 +150,7 @@ namespace Debond
     {
       return bone.whole() ? &effort_of_multigrid : nullptr;
     }
-    /** Whether a component is loaded, so that contact alone holds it. */
+    /** True if a component is loaded, so that contact alone holds it. */
     bool
     is_held_by_contact() const;
     /** Adds @p fraction of a correction to the trial state. */
@@ -167,7 +167,7 @@ namespace Debond
     bool
     refactor_bulk();
 
-    /** What a path is measured by, in the trial state [mm]; 0 where none is
+    /** Measure of a path, in the trial state [mm]; 0 where none is
      *  followed. */
     double
     path_length() const
@@ -188,8 +188,8 @@ namespace Debond
      *  space, from the contact forces [N, N mm]. */
     Chuck::Vector6
     chuck_resultant() const;
-    /** How forces and place of the chuck change with the time in which a step
-     *  ends, by its unit. Finite where the equations can be solved. */
+    /** Derivatives of forces and place of the chuck with respect to the time in
+     *  which a step ends. Finite where the equations can be solved. */
     struct Rates
     {
       Chuck::Vector6 forces = Chuck::Vector6::Zero(); ///< of chuck_forces()
@@ -230,7 +230,7 @@ namespace Debond
       return bulk_residual[Side::bone].energy +
              bulk_residual[Side::implant].energy;
     }
-    /** What the supports exert on a body in that state, see Body. */
+    /** Force and moment of the supports on a body in that state, see Body. */
     Chuck::Vector6
     support_reaction(const Side side, const Eigen::Vector3d &centre) const
     {
@@ -275,7 +275,7 @@ namespace Debond
   private:
     void
     update_configuration();
-    /** Those of interface.force() that act on the body itself. */
+    /** Forces of interface.force() on the body itself. */
     ControlNet
     force_on_points(Side side) const;
     double

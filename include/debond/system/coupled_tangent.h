@@ -9,7 +9,7 @@
 namespace Debond
 {
   /**
-   * What it takes to follow a path of equilibrium: all six chuck components and
+   * Equation of a path of equilibrium: all six chuck components and
    * the time are unknowns of the coupled system then, with the equations q_k =
    * value_k(time) for prescribed components and, for the time, that it or the
    * mean sliding distance has a given value.
@@ -26,7 +26,7 @@ namespace Debond
      *  a path the size of the others, and is D of CoupledTangent. 0: the
      *  machine counts for nothing. */
     Chuck::Vector6 stiffness = Chuck::Vector6::Zero();
-    /** What the equation of a component of the chuck is multiplied by: of a
+    /** Factor of the equation of a component of the chuck: of a
      *  spring stiffer than the face it would be the rounding of positions times
      *  that, and becomes a length or angle as those of prescribed ones. */
     Chuck::Vector6 row_scale = Chuck::Vector6::Ones();

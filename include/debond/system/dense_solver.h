@@ -22,13 +22,13 @@ namespace Debond
     /** C x. */
     virtual Eigen::VectorXd
     interface_product(const Eigen::VectorXd &x) const = 0;
-    /** Whether B has an inverse. */
+    /** True if B has an inverse. */
     virtual bool
     bulk_is_regular() const = 0;
     /** B^-1 b. */
     virtual Eigen::VectorXd
     solve_bulk(const Eigen::VectorXd &b) const = 0;
-    /** Whether A can be written: a part of it may exist as products only. */
+    /** True if A can be written: a part of it may exist as products only. */
     virtual bool
     can_be_assembled() const
     {

@@ -5,7 +5,7 @@
 
 namespace Debond
 {
-  /** What accounts of energy know of an accepted state. */
+  /** Accepted state, as accounts of energy know it. */
   struct EnergyState
   {
     /** Generalised forces of the chuck and the motion that they work along, in
@@ -43,7 +43,9 @@ namespace Debond
      *  that of bodies and interface. */
     void
     add(const EnergyState &state);
-    /** What follows the last state is judged by itself. */
+    /** Begins a new account: steps after the last state are judged by
+     * themselves.
+     */
     void
     begin_phase();
 
@@ -89,7 +91,7 @@ namespace Debond
     /** Dissipated more in this phase than was put in, beyond the bound? */
     bool
     dissipates_too_much() const;
-    /** Whether sliding gave energy back: @p step_dissipation is
+    /** True if sliding gave energy back: @p step_dissipation is
      *  InterfaceWork::step_dissipation. */
     bool
     is_given_back(const double step_dissipation) const
@@ -142,7 +144,7 @@ namespace Debond
     double
     add(const EnergyState &state);
 
-    /** Whether a force fell so far in the last step that a jump could not be
+    /** True if a force fell so far in the last step that a jump could not be
      * told from a steep fall. */
     bool
     may_hide_a_jump() const

@@ -32,7 +32,7 @@ namespace Debond
      * a file. The curve between them is drawn as with adaptive steps. */
     std::vector<std::vector<double>> ends;
 
-    /** Whether the curve between rows is known. */
+    /** True if the curve between rows is known. */
     bool
     draws_curve() const
     {
@@ -89,8 +89,8 @@ namespace Debond
     ChuckParameters        chuck;
     LoadSteppingParameters load_steps;
 
-    /** What the scene wants of a component of the chuck, in the units of its
-     *  value, and that at the sample_times(). */
+    /** Value that the scene prescribes to a component of the chuck, in the
+     * units of its value, and that at the sample_times(). */
     TimeFunction
     value_over_time(unsigned int component) const;
     std::vector<double>
@@ -101,7 +101,7 @@ namespace Debond
     {
       return !interface.friction->is_frictionless;
     }
-    /** Whether a step that begins at @p time has friction. It starts at a
+    /** True if a step that begins at @p time has friction. It starts at a
      *  planned time, up to rounding. */
     bool
     has_friction_after(const double time) const
@@ -115,7 +115,7 @@ namespace Debond
      *  empty: it can. */
     std::string
     why_not_lattice() const;
-    /** What `Bone / Solver' comes to, never automatic, and in words. */
+    /** Solver that `Bone / Solver' comes to, never automatic, and in words. */
     BulkSolver
     bulk_solver() const;
     std::string

@@ -8,7 +8,7 @@ namespace Debond
 {
   struct ModelParameters;
 
-  /** What to say when an allocation has failed. */
+  /** Message after an allocation that has failed. */
   extern const char *const out_of_memory;
 
   /** A scene whose bodies do not fit into the memory that there is. */

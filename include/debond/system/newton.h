@@ -8,13 +8,13 @@
 
 namespace Debond
 {
-  /** What the iteration of one step may do. */
+  /** Options of the iteration of one step. */
   struct NewtonOptions
   {
     double       residual_tolerance = 1e-8; ///< relative to the contact force
     unsigned int max_iterations     = 25;
-    /** How points are updated; with stick_first closed points stick in the
-     *  first iteration only. */
+    /** Mode in which points are updated; with stick_first closed points stick
+     * in the first iteration only. */
     ContactPointMode points;
     /** Shorten corrections once the states of the points go round in a cycle.
      *  Where the load cannot be followed, only full corrections find the state

@@ -55,14 +55,15 @@ namespace Debond
     {
       return outwards;
     }
-    /** What thickening has put in up to the accepted state [N mm], a trapezoid.
+    /** Work that thickening has put in up to the accepted state [N mm], a
+     *  trapezoid.
      */
     double
     work() const
     {
       return accepted_work;
     }
-    /** What that may be off by [N mm]. */
+    /** Bound of its error [N mm]. */
     double
     bound() const
     {
@@ -82,7 +83,7 @@ namespace Debond
     TimeFunction interference; ///< [mm]
     ControlNet   outwards;     ///< per length that the face is to stand out
     double       half = 0, accepted_half = 0; ///< [mm]
-    double       accepted_force = 0;          ///< that works on `half' [N]
+    double       accepted_force = 0;          ///< conjugate to `half' [N]
     double       accepted_work  = 0;
     double       accepted_bound = 0;
   };

@@ -37,15 +37,15 @@ namespace Debond
     }
   };
 
-  /** What the control of steps knows of a state of the system. */
+  /** State of the system, as the control of steps knows it. */
   struct StepState
   {
     double         time = 0;
-    Chuck::Vector6 forces; ///< that the chuck exerts, generalised [N, N mm]
-    /** What the scene prescribes, displacements and angles or loads. */
+    Chuck::Vector6 forces; ///< of the chuck, generalised [N, N mm]
+    /** Values that the scene prescribes, displacements and angles or loads. */
     Chuck::Vector6 drive;
     double         path_length = 0; ///< [mm]; known along a path only
-    /** How the forces change with time; known with adaptive steps only. */
+    /** Derivatives of the forces by time; known with adaptive steps only. */
     Chuck::Vector6 force_rates = Chuck::Vector6::Zero();
     /** By how much the forces are off, going by steps of half the size; asked
      *  with adaptive steps only, as it takes time. */
@@ -86,7 +86,7 @@ namespace Debond
     virtual bool
     reject(const Step &step, bool has_edge) = 0;
 
-    /** Whether the step that was taken is the last one of its row. */
+    /** True if the step that was taken is the last one of its row. */
     virtual bool
     row_is_complete() const
     {
@@ -102,7 +102,7 @@ namespace Debond
     {
       return phase == parameters.steps.size() && time == end;
     }
-    /** What the curve in the step that was taken is: a straight line, the
+    /** Curve in the step that was taken: a straight line, the
      *  parabola with the rate at the end, or the cubic with the rates at both
      *  ends. */
     enum class StepShape
@@ -289,7 +289,7 @@ namespace Debond
     void
     set_size(double new_size);
 
-    /** What is known of an end of a step. */
+    /** An end of a step, with forces and their rates. */
     struct Node
     {
       double time    = 0;
@@ -395,8 +395,8 @@ namespace Debond
     double       last_time_step = 0, last_slip_step = 0;
     /** The last slip step would have left the phase. */
     bool goes_to_end = false;
-    /** What has failed since the last accepted step; the other control is tried
-     *  next. */
+    /** Controls that have failed since the last accepted step; the other
+     * control is tried next. */
     bool slip_failed = false, time_failed = false;
   };
 } // namespace Debond

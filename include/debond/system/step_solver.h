@@ -15,7 +15,7 @@ namespace Debond
 
 
 
-  /** What became of a step. */
+  /** Outcome of a step. */
   struct StepResult : NewtonResult ///< of the last attempt
   {
     bool unique = false; ///< the law had only one solution at every point
@@ -91,7 +91,7 @@ namespace Debond
       bool relaxes_machine;
     };
     static const Attempt extrapolated, from_rest, jump, beyond;
-    /** Those of a step, in the order in which they are made. */
+    /** Attempts at a step, in the order in which they are made. */
     std::vector<Attempt>
     attempts(const Step &step) const;
 

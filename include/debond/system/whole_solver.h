@@ -11,7 +11,7 @@ namespace dealii
 
 namespace Debond
 {
-  /** What multigrid has done so far. */
+  /** Cycles of multigrid so far. */
   struct MultigridEffort
   {
     unsigned int systems     = 0; ///< linear systems
@@ -27,7 +27,7 @@ namespace Debond
     }
   };
 
-  /** What solve_whole() returns. */
+  /** Solution of solve_whole(), and whether it is one. */
   struct WholeSolution
   {
     bool            converged = false;

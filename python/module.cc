@@ -246,7 +246,9 @@ namespace
                py::arg("overrides"),
                py::arg("place") = "entries");
     module.def("with_values", with_values);
-    module.def("text_of", scene_text);
+    module.def("text_of", [](const std::vector<SceneEntry> &entries) {
+      return scene_text(entries);
+    });
     module.def("expression",
                [](const std::string &names, const std::string &text)
                  -> Expression { return read_expression(names, text, 0.); });

@@ -32,7 +32,7 @@ namespace Debond
         throw EntryError(entry, why, filename);
       };
       Classic<std::istringstream> file(
-        plain_table(read_input_bytes(filename, refuse, largest_MB), refuse));
+        plain_text(read_input_bytes(filename, refuse, largest_MB), refuse));
       std::string text;
       for (unsigned int number = 1; std::getline(file, text); ++number)
         {
@@ -40,6 +40,24 @@ namespace Debond
           if (!text.empty() && text[0] != '#')
             work(number, text);
         }
+    }
+
+
+
+    /** Fields of a line, without blanks around them; other programs put names
+     *  and numbers into quotes, which may hold commas. */
+    std::vector<std::string>
+    fields_of(const std::string &line)
+    {
+      if (line.find('"') == std::string::npos)
+        return split_list(line);
+      using Separator = boost::escaped_list_separator<char>;
+      // no character escapes another one
+      const boost::tokenizer<Separator> fields(line, Separator("", ",", "\""));
+      std::vector<std::string>          items(fields.begin(), fields.end());
+      for (std::string &item : items)
+        boost::trim(item);
+      return items;
     }
 
 
@@ -95,10 +113,7 @@ namespace Debond
     std::size_t                      n_columns = 0;
     for_each_line(
       filename, entry, [&](const unsigned int number, const std::string &line) {
-        // names, and numbers of other programs, may be in quotes
-        const std::vector<std::string> items =
-          line.find('"') == std::string::npos ? split_list(line) :
-                                                split_csv_line(line, ',');
+        const auto items  = fields_of(line);
         const auto refuse = [&](const std::string &why) {
           throw EntryError(entry,
                            "line " + std::to_string(number) + ": " + why,
@@ -140,21 +155,6 @@ namespace Debond
                          boost::join(names, ",") + " and rows below",
                        filename);
     return rows;
-  }
-
-
-
-  std::vector<std::string>
-  split_csv_line(const std::string &line, const char separator)
-  {
-    using Separator = boost::escaped_list_separator<char>;
-    // no character escapes another one
-    const boost::tokenizer<Separator> fields(
-      line, Separator("", std::string(1, separator), "\""));
-    std::vector<std::string> items(fields.begin(), fields.end());
-    for (std::string &item : items)
-      boost::trim(item);
-    return items;
   }
 
 

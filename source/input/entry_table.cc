@@ -1,12 +1,10 @@
 #include <debond/input/entry_table.h>
-#include <debond/support/number_text.h>
 
 #include <boost/algorithm/string/compare.hpp>
 
 #include <algorithm>
 #include <locale>
 #include <numeric>
-#include <sstream>
 
 namespace Debond
 {
@@ -14,7 +12,6 @@ namespace Debond
   EntryTable::enter_subsection(const std::string &name)
   {
     path.push_back(name);
-    prm.enter_subsection(name);
   }
 
 
@@ -23,7 +20,6 @@ namespace Debond
   EntryTable::leave_subsection()
   {
     path.pop_back();
-    prm.leave_subsection();
   }
 
 
@@ -39,16 +35,15 @@ namespace Debond
     const std::string refusal = allowed.refusal(value);
     if (!refusal.empty())
       entry.refuse(refusal);
-    if (numbers.emplace(entry.full_name(), rows.size()).second)
-      {
-        rows.push_back({entry, allowed});
-        prm.declare_entry(name,
-                          value,
-                          dealii::Patterns::Anything(),
-                          documentation + "\nAllowed: " + allowed.description);
-      }
-    if (set)
-      prm.add_action(name, set);
+    const auto [number, is_new] =
+      numbers.emplace(entry.full_name(), rows.size());
+    if (is_new)
+      rows.push_back({entry, allowed, documentation, {}});
+    Row &row = rows[number->second];
+    if (!set)
+      return;
+    set(row.entry.value);
+    row.members.push_back(set);
   }
 
 
@@ -59,9 +54,6 @@ namespace Debond
     const auto number = numbers.find(entry.full_name());
     if (number == numbers.end())
       {
-        if (entry.full_name() == "Load steps / Cyclic symmetry")
-          entry.refuse("there is no such entry any more: all of the contact "
-                       "face is computed; leave it out");
         const std::string special =
           remark_on_special_character(entry.full_name());
         const std::string likely = likely_name(entry);
@@ -83,12 +75,9 @@ namespace Debond
                                 "" :
                                 "; several values, a study, are written "
                                 "{{a|b}}"));
-    for (const std::string &subsection : entry.subsections)
-      prm.enter_subsection(subsection);
-    prm.set(entry.name, entry.value);
     row.entry.value = entry.value;
-    for (std::size_t i = 0; i < entry.subsections.size(); ++i)
-      prm.leave_subsection();
+    for (const auto &set_member : row.members)
+      set_member(entry.value);
   }
 
 
@@ -200,22 +189,12 @@ namespace Debond
 
 
   std::string
-  EntryTable::text() const
+  EntryTable::explained() const
   {
-    Classic<std::ostringstream> out;
-    prm.print_parameters(out,
-                         dealii::ParameterHandler::ShortPRM |
-                           dealii::ParameterHandler::KeepDeclarationOrder);
-    return out.str();
-  }
-
-
-
-  void
-  EntryTable::print(std::ostream &out) const
-  {
-    prm.print_parameters(out,
-                         dealii::ParameterHandler::PRM |
-                           dealii::ParameterHandler::KeepDeclarationOrder);
+    std::vector<std::string> documentation;
+    for (const Row &row : rows)
+      documentation.push_back(row.documentation +
+                              "\nAllowed: " + row.allowed.description);
+    return scene_text(entries(), documentation);
   }
 } // namespace Debond

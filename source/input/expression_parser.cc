@@ -6,19 +6,13 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
-#include <boost/algorithm/string/case_conv.hpp>
-
 #include <muParser.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
-#include <cstring>
-#include <functional>
 #include <limits>
-#include <locale>
-#include <map>
 #include <memory>
-#include <numeric>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -35,268 +29,59 @@ namespace Debond
       constexpr std::size_t longest = 10000;
       if (expression.size() > longest)
         return "it has more than " + std::to_string(longest) + " letters";
-      const std::string special = remark_on_special_character(expression);
-      if (!special.empty())
-        return special;
-      if (expression.find("**") != std::string::npos)
-        return "powers are written ^";
       static const std::regex assignment("(^|[^<>!=])=([^=]|$)");
       if (std::regex_search(expression, assignment))
         return "equality is written ==, and nothing can be assigned";
-      return "";
+      return remark_on_special_character(expression);
     }
 
 
 
-    /** What is meant by a @p token that the parser does not know, which may be
-     *  a name of another language or one in capitals; nothing if that is not
-     *  known either. */
-    std::string
-    remark_on_token(const std::string              &token,
-                    const std::vector<std::string> &names)
-    {
-      const std::string remainder =
-        "the remainder of a divided by b is written a - b * floor(a / b)";
-      const std::map<std::string, std::string> foreign{
-        {"mod", remainder},
-        {"fmod", remainder},
-        {"%", remainder},
-        {"and", "`and' is written &&"},
-        {"&", "`and' is written &&"},
-        {"or", "`or' is written ||"},
-        {"e", "the exponential function is written exp(x)"},
-        {"|", "absolute values are written abs(x)"},
-        {"int",
-         "int rounds in one language and cuts in another: rint(x) is the "
-         "nearest whole number, floor(x) the next one below"},
-        {"rand", "rand would make another scene of it every time"},
-        {";", "it holds a ;"}};
-      std::smatch       word;
-      const std::string beginning = shortened(token);
-      std::regex_search(beginning, word, std::regex("^(\\w+|.)"));
-      const auto found = foreign.find(word.str());
-      if (found != foreign.end())
-        return found->second;
-      const std::string lower =
-        boost::to_lower_copy(word.str(), std::locale::classic());
-      if (lower != word.str() &&
-          std::find(names.begin(), names.end(), lower) != names.end())
-        return "it is written " + lower + ", not " + word.str();
-      return "";
-    }
-
-
-    // What has no value has none within something else: comparisons, min and
-    // max of muParser would make a number of it. A number too large for the
-    // machine is infinite, which compares as it should; at a pole there is no
-    // value, because its sign would be that of a zero.
-    constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
-
-
-
-    template <typename Comparison>
-    double
-    compare(const double a, const double b)
-    {
-      return std::isunordered(a, b) ? no_value : Comparison()(a, b);
-    }
-
-
-
-    /** The least or largest of @p n numbers. */
-    template <typename Comparison>
-    double
-    first_of(const double *const x, const int n)
-    {
-      double first = x[0];
-      for (int i = 1; i < n; ++i)
-        first = std::isunordered(x[i], first) ? no_value :
-                Comparison()(x[i], first)     ? x[i] :
-                                                first;
-      return first;
-    }
-
-
-
-    template <double (*function)(double)>
-    double
-    without_poles(const double x)
-    {
-      const double value = function(x);
-      return std::isinf(value) && std::isfinite(x) ? no_value : value;
-    }
-
-
-
-    /** A negative number has no power that is not whole, also where it is too
-     *  large for the machine. */
-    double
-    power(const double a, const double b)
-    {
-      if (std::isunordered(a, b) || (a == 0. && b < 0.) ||
-          (a < 0. && b != std::floor(b)))
-        return no_value;
-      return b == 2. ? a * a : std::pow(a, b);
-    }
-
-
-
-    /** 1 or 0: what is not 0 is true. */
-    double
-    truth(const double condition)
-    {
-      return compare<std::not_equal_to<>>(condition, 0.);
-    }
-
-
-
-    /** What is not chosen may have no value. */
-    double
-    choose(const double condition, const double a, const double b)
-    {
-      const double is_true = truth(condition);
-      return std::isnan(is_true) ? no_value : is_true != 0. ? a : b;
-    }
-
-
-
-    void
-    define_operators(mu::Parser &parser)
-    {
-      const auto define = [&parser](const char *const         name,
-                                    const mu::fun_type2       function,
-                                    const mu::EOprtPrecedence precedence) {
-        parser.DefineOprt(name,
-                          function,
-                          precedence,
-                          precedence == mu::prPOW ? mu::oaRIGHT : mu::oaLEFT,
-                          true);
-      };
-      parser.EnableBuiltInOprt(false);
-      define(
-        "||",
-        [](double a, double b) { return choose(a, 1., truth(b)); },
-        mu::prLOR);
-      define(
-        "&&",
-        [](double a, double b) { return choose(a, truth(b), 0.); },
-        mu::prLAND);
-      define("<", compare<std::less<>>, mu::prCMP);
-      define("<=", compare<std::less_equal<>>, mu::prCMP);
-      define(">", compare<std::greater<>>, mu::prCMP);
-      define(">=", compare<std::greater_equal<>>, mu::prCMP);
-      define("==", compare<std::equal_to<>>, mu::prCMP);
-      define("!=", compare<std::not_equal_to<>>, mu::prCMP);
-      define(
-        "+", [](double a, double b) { return a + b; }, mu::prADD_SUB);
-      define(
-        "-", [](double a, double b) { return a - b; }, mu::prADD_SUB);
-      define(
-        "*", [](double a, double b) { return a * b; }, mu::prMUL_DIV);
-      define(
-        "/",
-        [](double a, double b) { return b == 0. ? no_value : a / b; },
-        mu::prMUL_DIV);
-      define("^", power, mu::prPOW);
-    }
-
-
-
-    /** All that doc/reference/scene_file.md lists, and no more: what they mean
-     * does not depend on the version of muParser. */
+    /** What doc/reference/scene_file.md lists and muParser has not, or has with
+     *  less digits. */
     void
     define_functions(mu::Parser &parser)
     {
-      parser.ClearFun();
-      const std::vector<std::pair<const char *, mu::fun_type1>> of_one{
-        {"abs", ::fabs},
-        {"acos", ::acos},
+      const std::vector<std::pair<const char *, mu::fun_type1>> functions{
         {"acosh", ::acosh},
-        {"asin", ::asin},
         {"asinh", ::asinh},
-        {"atan", ::atan},
-        {"atanh", without_poles<::atanh>},
+        {"atanh", ::atanh},
         {"ceil", ::ceil},
-        {"cos", ::cos},
-        {"cosh", ::cosh},
-        {"cot", [](double x) { return choose(x, 1. / std::tan(x), no_value); }},
-        {"csc", [](double x) { return choose(x, 1. / std::sin(x), no_value); }},
+        {"cot", [](double x) { return 1. / std::tan(x); }},
+        {"csc", [](double x) { return 1. / std::sin(x); }},
         {"erf", ::erf},
         {"erfc", ::erfc},
-        {"exp", ::exp},
         {"floor", ::floor},
-        {"ln", without_poles<::log>},
-        {"log", without_poles<::log>},
-        {"log10", without_poles<::log10>},
-        {"log2", without_poles<::log2>},
-        {"rint",
-         [](double x) {
-           return std::floor(x) + (x - std::floor(x) >= 0.5); // halves go up
-         }},
-        {"sec", [](double x) { return 1. / std::cos(x); }},
-        {"sign", [](double x) { return x > 0. ? 1. :
-                                       x < 0. ? -1. :
-                                                x; }},
-        {"sin", ::sin},
-        {"sinh", ::sinh},
-        {"sqrt", ::sqrt},
-        {"tan", ::tan},
-        {"tanh", ::tanh}};
-      for (const auto &[name, function] : of_one)
+        {"log2", ::log2},
+        {"sec", [](double x) { return 1. / std::cos(x); }}};
+      for (const auto &[name, function] : functions)
         parser.DefineFun(name, function);
-      const auto sum = [](const double *const x, const int n) {
-        return std::accumulate(x, x + n, 0.);
-      };
-      const auto mean = [](const double *const x, const int n) {
-        return std::accumulate(x, x + n, 0.) / n;
-      };
-      parser.DefineFun("sum", sum);
-      parser.DefineFun("avg", mean);
-      parser.DefineFun("min", first_of<std::less<>>);
-      parser.DefineFun("max", first_of<std::greater<>>);
-      parser.DefineFun("pow", power);
-      parser.DefineFun("atan2", static_cast<mu::fun_type2>(::atan2));
-      parser.DefineFun("if", choose);
+      parser.DefineFun("pow", static_cast<mu::fun_type2>(::pow));
+      parser.DefineFun("if", [](double, double a, double) { return a; });
     }
 
 
 
-    /** Where one of @p letters stands from @p begin on, in steps of 1 or -1,
-     *  outside of parentheses that open after it. */
-    std::size_t
-    find_outside(const std::string &text,
-                 const std::size_t  begin,
-                 const int          step,
-                 const char *const  letters)
-    {
-      int depth = 0;
-      for (std::size_t at = begin; at < text.size(); at += step)
-        {
-          if (depth == 0 && std::strchr(letters, text[at]) != nullptr)
-            return at;
-          depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
-        }
-      return step > 0 ? text.size() : std::string::npos;
-    }
-
-
-
-    /** The same with `if(a, b, c)` for `a ? b : c`, whose meaning to the parser
-     *  cannot be changed: for it, what has no value is true. */
+    /** The same with `(a)?(b):(c)` for `if(a, b, c)`: of these the parser
+     *  computes the one that is chosen. */
     std::string
-    with_if(std::string text)
+    with_choices(std::string text)
     {
       // behind the last one there is no other
-      for (auto mark = text.rfind('?'); mark != std::string::npos;
-           mark      = text.rfind('?'))
+      for (auto at = text.rfind("if("); at != text.npos; at = text.rfind("if("))
         {
-               const auto begin = find_outside(text, mark - 1, -1, "(,?:") + 1,
-                          colon = find_outside(text, mark + 1, 1, ":"),
-                          end   = find_outside(text, colon + 1, 1, "),:");
-               text =
-                 text.substr(0, begin) + "if(" + text.substr(begin, mark - begin) +
-                 "," + text.substr(mark + 1, colon - mark - 1) + "," +
-                 text.substr(colon + 1, end - colon - 1) + ")" + text.substr(end);
+          text.replace(at, 2, "(");
+          unsigned int depth = 1, n_commas = 0;
+          for (at += 2; depth > 0 && at < text.size(); ++at)
+            {
+              depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+              if (depth == 1 && text[at] == ',')
+                {
+                  text.replace(at, 1, n_commas++ == 0 ? ")?(" : "):(");
+                  at += 2;
+                }
+            }
+          text.insert(at, ")");
         }
       return text;
     }
@@ -304,6 +89,8 @@ namespace Debond
 
 
 
+  // Whether a part had a value is known to the processor: a root of a negative
+  // number is an invalid operation to it, a pole a division by zero.
   Expression
   read_expression(const std::string &variables,
                   const std::string &expression,
@@ -318,8 +105,7 @@ namespace Debond
     if (!why.empty())
       refuse(why);
 
-    std::vector<std::string> names =
-      dealii::Utilities::split_string_list(variables);
+    const auto names  = dealii::Utilities::split_string_list(variables);
     const auto shared = std::make_shared<mu::Parser>();
     const auto variables_at =
       std::make_shared<std::vector<double>>(names.size());
@@ -328,7 +114,7 @@ namespace Debond
       parser.DefineVar(names[i], &(*variables_at)[i]);
     parser.DefineConst("pi", dealii::numbers::PI);
     parser.DefineConst("R", radius);
-    define_operators(parser);
+    parser.EnableOptimizer(false); // it would compute what is never chosen
     define_functions(parser);
     // The parser wants the parenthesis of a function right behind its name.
     std::string text = expression;
@@ -338,31 +124,25 @@ namespace Debond
       {
         parser.SetExpr(text);
         parser.Eval(); // reads it; messages are about what was written
-        parser.SetExpr(with_if(text));
+        parser.SetExpr(with_choices(text));
         parser.Eval();
       }
     catch (const mu::Parser::exception_type &error)
       {
-        names.insert(names.end(), {"pi", "R"});
-        const bool is_quoted =
-          expression.find_first_of("\"'`") != std::string::npos;
-        const std::string remark = is_quoted ?
-                                     "it stands without quotes" :
-                                     remark_on_token(error.GetToken(), names);
-        const bool no_product    = error.GetCode() == mu::ecUNEXPECTED_VAR ||
-                                error.GetCode() == mu::ecUNEXPECTED_FUN ||
-                                error.GetCode() == mu::ecUNEXPECTED_VAL;
-        refuse(!remark.empty() ?
-                 remark :
-                 shortened(error.GetMsg()) +
-                   (no_product ? "; a product is written a * b" : ""));
+        refuse(shortened(error.GetMsg()) +
+               " (expressions are like 2 * pi * t^2, without units and quotes; "
+               "and, or are written &&, ||)");
       }
     if (parser.GetNumResults() > 1)
       refuse("decimals are written with a point");
 
     return [shared, variables_at](const std::vector<double> &values) {
       std::copy(values.begin(), values.end(), variables_at->begin());
-      return shared->Eval();
+      std::feclearexcept(FE_ALL_EXCEPT);
+      const double value = shared->Eval();
+      return std::fetestexcept(FE_INVALID | FE_DIVBYZERO) == 0 ?
+               value :
+               std::numeric_limits<double>::quiet_NaN();
     };
   }
 

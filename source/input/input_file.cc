@@ -12,33 +12,10 @@
 #include <fstream>
 #include <iomanip>
 #include <sstream>
-#include <utility>
 #include <vector>
 
 namespace Debond
 {
-  namespace
-  {
-    /** A scene's file that is not here may be where the program was installed
-     *  with its scenes. */
-    std::string
-    installed_instead(const std::string &filename)
-    {
-      std::error_code             none;
-      const std::filesystem::path program =
-        std::filesystem::read_symlink("/proc/self/exe", none);
-      const std::string scenes =
-        (program.parent_path().parent_path() / "share/debond/prm").string();
-      return filename.rfind("prm/", 0) == 0 &&
-                 std::filesystem::exists(scenes + filename.substr(3), none) ?
-               "; it is in " + scenes + ": `ln -s " + scenes +
-                 "' makes prm here" :
-               "";
-    }
-  } // namespace
-
-
-
   std::string
   read_input_bytes(const std::string &filename,
                    const FileRefusal &refuse,
@@ -51,9 +28,6 @@ namespace Debond
       refuse(std::string("this file cannot be read: ") + std::strerror(errno));
     };
     Classic<std::ifstream> file(filename, std::ios::binary);
-    if (!file && errno == ENOENT)
-      refuse("this file cannot be read: No such file or directory" +
-             installed_instead(filename));
     if (!file)
       refuse_file();
 
@@ -159,77 +133,5 @@ namespace Debond
           }
       }
     return is_utf8 ? text : from_latin_1;
-  }
-
-
-
-  namespace
-  {
-    /** Whether a digit ends at @p begin and three, no more, begin at @p end. */
-    bool
-    is_between_thousands(const std::string &text,
-                         const std::size_t  begin,
-                         const std::size_t  end)
-    {
-      const auto is_digit = [&text](const std::size_t at) {
-        return at < text.size() && text[at] >= '0' && text[at] <= '9';
-      };
-      return begin > 0 && is_digit(begin - 1) && is_digit(end) &&
-             is_digit(end + 1) && is_digit(end + 2) && !is_digit(end + 3);
-    }
-  } // namespace
-
-
-
-  std::string
-  with_plain_marks(std::string text)
-  {
-    if (std::all_of(text.begin(), text.end(), [](const char c) {
-          return static_cast<unsigned char>(c) < 128;
-        }))
-      return text;
-    static const std::vector<const char *> blanks{"\u00a0",
-                                                  "\u2002",
-                                                  "\u2003",
-                                                  "\u2004",
-                                                  "\u2005",
-                                                  "\u2006",
-                                                  "\u2007",
-                                                  "\u2008",
-                                                  "\u2009",
-                                                  "\u200a",
-                                                  "\u202f",
-                                                  "\u205f",
-                                                  "\u3000"};
-    static const std::vector<std::pair<const char *, std::vector<const char *>>>
-      plain{{"", {"\u00ad", "\u200b", "\u200c", "\u200d", "\u2060", "\ufeff"}},
-            // the last one is Windows' dash, where Latin-1 has nothing
-            {"-",
-             {"\u2010", "\u2011", "\u2012", "\u2013", "\u2212", "\xc2\x96"}},
-            {"·", {"\u22c5", "\u2219", "\u2022"}},
-            {"µ", {"\u03bc"}},           // Greek, on some keyboards
-            {"°", {"\u00ba", "\u02da"}}, // an ordinal, a ring
-            {"'", {"\u2019", "\u02bc", "\xc2\x92"}}};
-    // a number with such a blank between thousands stays one word
-    for (const char *const blank : blanks)
-      for (std::size_t at = text.find(blank); at != text.npos;
-           at             = text.find(blank, at))
-        text.replace(at,
-                     std::strlen(blank),
-                     is_between_thousands(text, at, at + std::strlen(blank)) ?
-                                   "'" :
-                                   " ");
-    for (const auto &[mark, others] : plain)
-      for (const char *const other : others)
-        boost::replace_all(text, other, mark);
-    return text;
-  }
-
-
-
-  std::string
-  plain_table(const std::string &bytes, const FileRefusal &refuse)
-  {
-    return with_plain_marks(utf8(plain_text(bytes, refuse)));
   }
 } // namespace Debond

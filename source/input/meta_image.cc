@@ -14,24 +14,67 @@
 #include <filesystem>
 #include <locale>
 #include <map>
-#include <optional>
 #include <utility>
 
 namespace Debond
 {
   namespace
   {
-    /** Names of a header that mean the same. */
-    using Names = std::vector<std::string>;
+    /** Names of a header that mean the same as others; ElementOrigin and
+     *  ElementDirection place the voxels in files of version 1. */
+    const std::map<std::string, std::string> synonyms{
+      {"Position", "Offset"},
+      {"Origin", "Offset"},
+      {"ImagePosition", "Offset"},
+      {"ElementOrigin", "Offset"},
+      {"Rotation", "TransformMatrix"},
+      {"Orientation", "TransformMatrix"},
+      {"ElementDirection", "TransformMatrix"},
+      {"ElementByteOrderMSB", "BinaryDataByteOrderMSB"}};
+
+
+
+    /** The numbers of a text; none if it has something else. */
+    std::vector<double>
+    numbers_in(const std::string &text)
+    {
+      std::vector<std::string> items;
+      boost::split(items, text, boost::is_space(), boost::token_compress_on);
+      std::vector<double> numbers;
+      for (const std::string &item : items)
+        if (const auto number = read_number(item))
+          numbers.push_back(*number);
+        else
+          return {};
+      return numbers;
+    }
+
+
+
+    bool
+    say_the_same(const std::string &one, const std::string &other)
+    {
+      const auto numbers = numbers_in(one), others = numbers_in(other);
+      return boost::iequals(one, other, std::locale::classic()) ||
+             (!numbers.empty() &&
+              std::equal(numbers.begin(),
+                         numbers.end(),
+                         others.begin(),
+                         others.end(),
+                         [](const double a, const double b) {
+                           return std::abs(a - b) <= 1e-6 * (1. + std::abs(b));
+                         }));
+    }
 
 
 
     /** The header of a MetaImage. */
     struct MetaHeader
     {
-      std::map<std::string, std::string> values;
-      std::size_t                        size = 0; ///< where data may begin
-      const FileRefusal                 &refuse;
+      /** Names as written and values, by the name without synonyms. */
+      std::map<std::string, std::pair<std::string, std::string>> lines;
+      std::size_t        size = 0; ///< where data may begin
+      const FileRefusal &refuse;
 
       // The line ElementDataFile is the last one.
       MetaHeader(const std::string &bytes, const FileRefusal &refuse)
@@ -41,87 +84,59 @@ namespace Debond
           {
             const std::size_t end =
               std::min(bytes.find('\n', size), bytes.size());
-            const std::string line = bytes.substr(size, end - size);
-            const std::size_t at   = line.find_first_of("=:");
+            const std::string text = bytes.substr(size, end - size);
+            const std::size_t at   = text.find_first_of("=:");
             size                   = std::min(end + 1, bytes.size());
-            if (at == std::string::npos)
-              continue;
-            const std::string name      = boost::trim_copy(line.substr(0, at)),
-                              value     = boost::trim_copy(line.substr(at + 1));
-            const auto [before, is_new] = values.emplace(name, value);
-            if (!is_new && before->second != value && name != "Comment")
-              refuse_both(name, name + " = " + value);
+            if (at != std::string::npos)
+              take(boost::trim_copy(text.substr(0, at)),
+                   boost::trim_copy(text.substr(at + 1)));
           }
         if (!has("ElementDataFile"))
           refuse("it is no MetaImage: there is no line ElementDataFile = ...");
       }
 
+      void
+      take(const std::string &written, const std::string &value)
+      {
+        const auto        synonym = synonyms.find(written);
+        const std::string name =
+          synonym == synonyms.end() ? written : synonym->second;
+        const auto [before, is_new] =
+          lines.emplace(name, std::make_pair(written, value));
+        if (!is_new && name != "Comment" &&
+            !say_the_same(before->second.second, value))
+          refuse("it says " + line(name) + ", and " + written + " = " + value +
+                 ": remove the one that is wrong");
+      }
+
       bool
       has(const std::string &name) const
       {
-        return values.count(name) > 0;
+        return lines.count(name) > 0;
       }
 
       std::string
       text(const std::string &name, const std::string &otherwise = "") const
       {
-        const auto found = values.find(name);
-        return found == values.end() ? otherwise : found->second;
+        return has(name) ? lines.at(name).second : otherwise;
       }
 
       /** For messages. */
       std::string
       line(const std::string &name) const
       {
-        return name + " = " + text(name);
-      }
-
-      void
-      refuse_both(const std::string &name, const std::string &other) const
-      {
-        refuse("it says " + line(name) + ", and " + other +
-               ": remove the one that is wrong");
+        return (has(name) ? lines.at(name).first : name) + " = " + text(name);
       }
 
       /** So many numbers. */
       std::vector<double>
       numbers(const std::string &name, const unsigned int count) const
       {
-        std::vector<std::string> items;
-        const std::string        value = text(name);
-        boost::split(items, value, boost::is_space(), boost::token_compress_on);
-        std::vector<double> result;
-        for (const std::string &item : items)
-          if (const auto number = read_number(item))
-            result.push_back(*number);
-        if (items.size() != count || result.size() != count)
+        const std::vector<double> result = numbers_in(text(name));
+        if (result.size() != count)
           refuse(
             line(name) + ": expected " +
             (count == 1 ? "a number" : std::to_string(count) + " numbers"));
-        return result;
-      }
-
-      /** What the first of the @p names says that is there; others that are
-       *  there must say the same. */
-      std::optional<std::vector<double>>
-      agreed_numbers(const Names &names, const unsigned int count) const
-      {
-        std::optional<std::vector<double>> result;
-        std::string                        first;
-        for (const std::string &name : names)
-          if (has(name))
-            {
-              const auto others = numbers(name, count);
-              if (!result)
-                {
-                  result = others;
-                  first  = name;
-                }
-              for (unsigned int i = 0; i < count; ++i)
-                if (std::abs((*result)[i] - others[i]) >
-                    1e-6 * (1. + std::abs(others[i])))
-                  refuse_both(first, line(name));
-            }
         return result;
       }
 
@@ -131,26 +146,16 @@ namespace Debond
         return has(name) ? numbers(name, 1)[0] : otherwise;
       }
 
-      /** True or False, with several @p names as for numbers. */
       bool
-      is_true(const Names &names, const bool otherwise) const
+      is_true(const std::string &name, const bool otherwise) const
       {
-        std::optional<bool> result;
-        std::string         first;
-        for (const std::string &name : names)
-          if (has(name))
-            {
-              const std::string value =
-                boost::to_upper_copy(text(name), std::locale::classic());
-              const bool yes = value == "TRUE" || value == "1";
-              if (!yes && value != "FALSE" && value != "0")
-                refuse(line(name) + ": expected True or False");
-              if (result && *result != yes)
-                refuse_both(first, line(name));
-              result = yes;
-              first  = name;
-            }
-        return result.value_or(otherwise);
+        const std::string value =
+          boost::to_upper_copy(text(name, otherwise ? "TRUE" : "FALSE"),
+                               std::locale::classic());
+        const bool yes = value == "TRUE" || value == "1";
+        if (!yes && value != "FALSE" && value != "0")
+          refuse(line(name) + ": expected True or False");
+        return yes;
       }
     };
 
@@ -195,120 +200,67 @@ namespace Debond
     void
     read_spacing(const MetaHeader &header, StoredVoxels &voxels)
     {
-      const auto spacing = header.agreed_numbers({"ElementSpacing"}, 3),
-                 edges   = header.agreed_numbers({"ElementSize"}, 3);
-      if (!spacing && !edges)
+      const bool has_spacing   = header.has("ElementSpacing"),
+                 has_edges     = header.has("ElementSize");
+      const std::string   name = has_spacing ? "ElementSpacing" : "ElementSize";
+      std::vector<double> taken{1., 1., 1.};
+      if (has_spacing || has_edges)
+        taken = header.numbers(name, 3);
+      else
         voxels.remarks.push_back(
           "it has no ElementSpacing: edges of voxels are taken as 1 mm");
-      else if (spacing && edges)
-        for (unsigned int d = 0; d < 3; ++d)
-          if (std::abs((*spacing)[d] - (*edges)[d]) > 1e-6 * (*spacing)[d])
-            {
-              voxels.remarks.push_back(header.line("ElementSize") + ", but " +
-                                       header.line("ElementSpacing") +
-                                       ": the latter places the voxels");
-              break;
-            }
-      const auto taken = spacing ? spacing : edges;
+      if (has_spacing && has_edges &&
+          !say_the_same(header.text("ElementSize"), header.text(name)))
+        voxels.remarks.push_back(header.line("ElementSize") + ", but " +
+                                 header.line(name) +
+                                 ": the latter places the voxels");
       for (unsigned int d = 0; d < 3; ++d)
-        voxels.spacing[d] = unit_of_length(header) * (taken ? (*taken)[d] : 1.);
+        voxels.spacing[d] = unit_of_length(header) * taken[d];
     }
 
 
 
-    /** StoredVoxels::along of indices that run along the columns of @p
-     *  directions, whose length is 1. @p source: what the header calls them. */
-    std::array<int, 3>
-    axes_along(const Eigen::Matrix3d &directions,
-               const std::string     &source,
-               const FileRefusal     &refuse)
-    {
-      constexpr double      tolerance = 1e-3;
-      const Eigen::Matrix3d rounded   = directions.array().round();
-      if ((directions - rounded).cwiseAbs().maxCoeff() > tolerance ||
-          rounded.cwiseAbs() * Eigen::Vector3d::Ones() !=
-            Eigen::Vector3d::Ones() ||
-          rounded.cwiseAbs().transpose() * Eigen::Vector3d::Ones() !=
-            Eigen::Vector3d::Ones())
-        {
-          std::string text;
-          for (unsigned int d = 0; d < 3; ++d)
-            {
-              text += d == 0 ? "(" : d == 1 ? ", (" : " and (";
-              for (unsigned int axis = 0; axis < 3; ++axis)
-                text +=
-                  to_text(std::round(1e4 * directions(axis, d)) / 1e4 + 0.) +
-                  (axis < 2 ? ", " : ")");
-            }
-          refuse("its axes are oblique or scaled: by its " + source +
-                 " the three indices run along " + text +
-                 ", expected along x, y and z, with the length 1. Resample an "
-                 "oblique image, or remove what turns it to take the axes as "
-                 "they are stored");
-        }
-      std::array<int, 3> along{};
-      for (int d = 0; d < 3; ++d)
-        for (int axis = 0; axis < 3; ++axis)
-          if (rounded(axis, d) != 0.)
-            along[d] = rounded(axis, d) > 0. ? axis + 1 : -(axis + 1);
-      return along;
-    }
-
-
-
-    /** AnatomicalOrientation has a letter for where each index begins; some
-     *  write where it ends. @p source: what says how they run. */
+    /** Along which axes the indices run, the direction of the first one coming
+     *  first. AnatomicalOrientation has a letter for where each index begins;
+     *  some write where it ends. */
     void
-    check_orientation(const MetaHeader   &header,
-                      const StoredVoxels &voxels,
-                      const std::string  &source)
+    read_axes(const MetaHeader &header, StoredVoxels &voxels)
     {
+      constexpr double tolerance = 1e-3;
+      if (header.has("TransformMatrix"))
+        {
+          const auto matrix = header.numbers("TransformMatrix", 9);
+          const Eigen::Map<const Eigen::Matrix3d> directions(matrix.data());
+          const Eigen::Matrix3d rounded = directions.array().round();
+          if ((directions - rounded).cwiseAbs().maxCoeff() > tolerance ||
+              rounded.cwiseAbs() * Eigen::Vector3d::Ones() !=
+                Eigen::Vector3d::Ones() ||
+              rounded.cwiseAbs().transpose() * Eigen::Vector3d::Ones() !=
+                Eigen::Vector3d::Ones())
+            header.refuse("its axes are oblique or scaled: " +
+                          header.line("TransformMatrix") +
+                          ", expected three indices along x, y and z, with the "
+                          "length 1. Resample an oblique image, or remove what "
+                          "turns it to take the axes as they are stored");
+          for (int d = 0; d < 3; ++d)
+            voxels.along[d] =
+              static_cast<int>(rounded.col(d).dot(Eigen::Vector3d(1., 2., 3.)));
+        }
       const std::string given =
         boost::to_upper_copy(header.text("AnatomicalOrientation", "?"),
                              std::locale::classic());
-      if (given.find_first_not_of("?") == std::string::npos)
-        return;
       std::string from, to;
       for (const int axis : voxels.along)
         {
           from += (axis > 0 ? "RAI" : "LPS")[std::abs(axis) - 1];
           to += (axis > 0 ? "LPS" : "RAI")[std::abs(axis) - 1];
         }
-      if (given != from && given != to)
-        header.refuse(header.line("AnatomicalOrientation") + ", but by its " +
-                      source + " the axes run from " + from + " to " + to +
-                      ": remove the one that is wrong");
-    }
-
-
-
-    /** In files of version 1 it is ElementOrigin and ElementDirection that
-     * place the voxels. */
-    void
-    read_place(const MetaHeader &header, StoredVoxels &voxels)
-    {
-      const Names axes{"TransformMatrix",
-                       "Rotation",
-                       "Orientation",
-                       "ElementDirection"};
-      const auto  name =
-        std::find_if(axes.begin(), axes.end(), [&](const std::string &each) {
-          return header.has(each);
-        });
-      const std::string source =
-        name != axes.end() ? *name : "lack of a TransformMatrix";
-      // the direction of the first index comes first
-      if (const auto matrix = header.agreed_numbers(axes, 9))
-        voxels.along =
-          axes_along(Eigen::Map<const Eigen::Matrix3d>(matrix->data()),
-                     source,
-                     header.refuse);
-      check_orientation(header, voxels, source);
-      if (const auto first = header.agreed_numbers(
-            {"Offset", "Position", "Origin", "ImagePosition", "ElementOrigin"},
-            3))
-        voxels.first = unit_of_length(header) *
-                       Eigen::Map<const Eigen::Vector3d>(first->data());
+      if (given.find_first_not_of("?") != std::string::npos && given != from &&
+          given != to)
+        header.refuse(header.line("AnatomicalOrientation") +
+                      ", but by its TransformMatrix, or without one, the axes "
+                      "run from " +
+                      from + " to " + to + ": remove the one that is wrong");
     }
 
 
@@ -357,9 +309,9 @@ namespace Debond
         {"MET_DOUBLE", number_type<double>()}};
       if (header.text("ObjectType", "Image") != "Image")
         header.refuse(header.line("ObjectType") + ": expected Image");
-      if (!header.is_true({"BinaryData"}, true))
+      if (!header.is_true("BinaryData", true))
         header.refuse("its data are text: expected BinaryData = True");
-      if (header.is_true({"CompressedData"}, false))
+      if (header.is_true("CompressedData", false))
         header.refuse("its data are compressed: expected CompressedData = "
                       "False");
       if (header.number("ElementNumberOfChannels", 1.) != 1.)
@@ -389,26 +341,19 @@ namespace Debond
                   const std::size_t behind,
                   const std::size_t size)
     {
-      const double given = header.number("HeaderSize", 0.);
-      if (given != -1. &&
-          !(given >= 0. && given <= 1e12 && given == std::floor(given)))
-        header.refuse(header.line("HeaderSize") +
-                      ": expected a number of bytes, or -1 for data at the "
-                      "end of the file");
-      if (given == -1. && size >= behind + n_bytes)
-        return size - n_bytes;
-      const std::size_t begin = given > 0. ? given : behind;
-      if (begin < behind)
-        header.refuse(header.line("HeaderSize") +
-                      ": data begin behind the line ElementDataFile, after " +
-                      std::to_string(behind) + " bytes");
-      if (begin > size || size - begin != n_bytes)
+      const double given = header.number("HeaderSize", 0.),
+                   begin = given == -1. ?
+                             std::max<double>(behind, double(size) - n_bytes) :
+                           given == 0. ? behind :
+                                         given;
+      if (!(begin >= behind && begin + n_bytes == size))
         header.refuse(
-          "there are " + std::to_string(size - std::min(begin, size)) +
+          "there are " + to_text(std::max(0., size - begin)) +
           " bytes of data" +
-          (given > 0. ? " behind " + header.line("HeaderSize") : "") +
-          ": expected " + std::to_string(n_bytes) + ", those of DimSize");
-      return begin;
+          (header.has("HeaderSize") ? " by " + header.line("HeaderSize") : "") +
+          ": expected " + std::to_string(n_bytes) +
+          ", those of DimSize, behind a header of " + std::to_string(behind));
+      return static_cast<std::size_t>(begin);
     }
   } // namespace
 
@@ -422,7 +367,11 @@ namespace Debond
     StoredVoxels     voxels;
     read_grid(header, voxels);
     read_spacing(header, voxels);
-    read_place(header, voxels);
+    read_axes(header, voxels);
+    if (header.has("Offset"))
+      voxels.first =
+        unit_of_length(header) *
+        Eigen::Map<const Eigen::Vector3d>(header.numbers("Offset", 3).data());
     const auto [size, append] = read_type(header, voxels);
     const std::string data    = header.text("ElementDataFile");
     std::size_t       behind  = header.size;
@@ -447,8 +396,7 @@ namespace Debond
     voxels.grey.reserve(n);
     append(bytes.data() + begin_of_data(header, n * size, behind, bytes.size()),
            n,
-           header.is_true({"BinaryDataByteOrderMSB", "ElementByteOrderMSB"},
-                          false),
+           header.is_true("BinaryDataByteOrderMSB", false),
            voxels.grey);
     return voxels;
   }

@@ -4,6 +4,7 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
+#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
 #include <boost/algorithm/string/case_conv.hpp>
@@ -184,10 +185,6 @@ namespace Debond
       void
       open_subsection(const std::string &name)
       {
-        constexpr std::size_t deepest = 20; // that of a scene is 2
-        if (path.size() == deepest)
-          refuse("more than " + std::to_string(deepest) +
-                 " subsections are open: is an 'end' missing?");
         path.push_back(trim_fill_copy(name, " "));
         path_places.push_back(place);
       }
@@ -268,44 +265,28 @@ namespace Debond
 
 
   std::string
-  scene_text(const std::vector<SceneEntry> &entries)
+  scene_text(const std::vector<SceneEntry>  &entries,
+             const std::vector<std::string> &documentation)
   {
-    std::vector<SceneEntry> in_order = entries;
-    std::stable_sort(in_order.begin(),
-                     in_order.end(),
-                     [](const SceneEntry &a, const SceneEntry &b) {
-                       return a.subsections < b.subsections;
-                     });
-    std::string              text;
-    std::vector<std::string> open;
-    const auto indent = [&] { return std::string(2 * open.size(), ' '); };
-    for (const SceneEntry &entry : in_order)
+    using dealii::ParameterHandler;
+    ParameterHandler prm;
+    for (std::size_t i = 0; i < entries.size(); ++i)
       {
-        const auto common = std::mismatch(open.begin(),
-                                          open.end(),
-                                          entry.subsections.begin(),
-                                          entry.subsections.end())
-                              .first -
-                            open.begin();
-        while (static_cast<std::ptrdiff_t>(open.size()) > common)
-          {
-            open.pop_back();
-            text += indent() + "end\n";
-          }
-        while (open.size() < entry.subsections.size())
-          {
-            text +=
-              indent() + "subsection " + entry.subsections[open.size()] + "\n";
-            open.push_back(entry.subsections[open.size()]);
-          }
-        text += indent() + "set " + entry.name + " = " + entry.value + "\n";
+        for (const std::string &subsection : entries[i].subsections)
+          prm.enter_subsection(subsection);
+        prm.declare_entry(entries[i].name,
+                          entries[i].value,
+                          dealii::Patterns::Anything(),
+                          documentation.empty() ? "" : documentation[i]);
+        for (std::size_t k = 0; k < entries[i].subsections.size(); ++k)
+          prm.leave_subsection();
       }
-    while (!open.empty())
-      {
-        open.pop_back();
-        text += indent() + "end\n";
-      }
-    return text;
+    Classic<std::ostringstream> text;
+    prm.print_parameters(text,
+                         (documentation.empty() ? ParameterHandler::ShortPRM :
+                                                  ParameterHandler::PRM) |
+                           ParameterHandler::KeepDeclarationOrder);
+    return text.str();
   }
 
 

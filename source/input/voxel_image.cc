@@ -32,15 +32,6 @@ namespace Debond
 
   namespace
   {
-    std::string
-    grid_text(const std::array<unsigned int, 3> &n)
-    {
-      return std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
-             std::to_string(n[2]);
-    }
-
-
-
     /** Number, distance and the first of places along a direction. */
     struct GridLine
     {
@@ -126,25 +117,11 @@ namespace Debond
                    ": there is another row for this voxel");
           image.grey[place] = static_cast<float>(rows[i][3]);
         }
-      const std::size_t missing =
-        std::find_if(image.grey.begin(),
-                     image.grey.end(),
-                     [](const float grey) { return std::isnan(grey); }) -
-        image.grey.begin();
-      if (missing < n)
-        {
-          const std::array<std::size_t, 3> index{
-            {missing % image.n[0],
-             missing / image.n[0] % image.n[1],
-             missing / image.n[0] / image.n[1]}};
-          std::string where;
-          for (unsigned int d = 0; d < 3; ++d)
-            where += (d == 0 ? "" : ", ") + std::string(1, "xyz"[d]) + " = " +
-                     to_text(grid[d].first + index[d] * grid[d].spacing, 6);
-          refuse("it has " + std::to_string(rows.size()) +
-                 " rows: expected one for each of the " + grid_text(image.n) +
-                 " voxels; the first that is missing is at " + where);
-        }
+      if (rows.size() < n)
+        refuse("it has " + std::to_string(rows.size()) +
+               " rows: expected one for each of the " +
+               std::to_string(image.n[0]) + " x " + std::to_string(image.n[1]) +
+               " x " + std::to_string(image.n[2]) + " voxels");
       return image;
     }
   } // namespace

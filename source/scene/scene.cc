@@ -12,31 +12,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 
 namespace Debond
 {
   namespace
   {
-    /** All files whose content makes the results. */
-    std::vector<std::string>
-    files_of(const Scene &scene)
-    {
-      std::vector<std::string> files{scene.interface.bonding.file,
-                                     scene.interface.friction->file};
-      for (const ChuckComponentParameters &component : scene.chuck.component)
-        files.push_back(component.file);
-      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
-        files.push_back(body->mesh_file);
-      files.push_back(scene.bone.voxel_file);
-      if (scene.bone.modulus && scene.bone.modulus->voxels())
-        files.push_back(scene.bone.modulus->voxels()->data_file);
-      files.erase(std::remove(files.begin(), files.end(), ""), files.end());
-      return files;
-    }
-
-
-
+    /** Lines that tell the contents of all files that make the results. */
     std::string
     identities(const Scene &scene)
     {
@@ -54,38 +37,47 @@ namespace Debond
 
 
 
+    /** What is wrong with the reference as a curve of these axes, or nothing.
+     */
+    std::optional<EntryError>
+    why_no_curve(const OutputParameters &output, const CurveAxes &axes)
+    {
+      try
+        {
+          read_reference_curve(output.reference_curve,
+                               output.reference_columns,
+                               axes);
+          return {};
+        }
+      catch (const EntryError &error)
+        {
+          return error;
+        }
+    }
+
+
+
     // A measured curve of angles and torques says itself which curve it is.
+    // Fits read their curves themselves, which may be others.
     void
     take_curve(Scene &scene)
     {
-      OutputParameters &output = scene.output;
-      const auto        read   = [&output](const CurveAxes &axes) {
-        read_reference_curve(output.reference_curve,
-                             output.reference_columns,
-                             axes);
-      };
-      const auto can_read = [&](const CurveAxes &axes) {
-        try
-          {
-            read(axes);
-            return true;
-          }
-        catch (const EntryError &)
-          {
-            return false;
-          }
-      };
-      const auto named = CurveAxes::read(output.curve);
-      output.axes      = named ? *named : scene.usual_curve();
-      if (!named && !output.axes.is_torsion() && !can_read(output.axes) &&
-          can_read(CurveAxes()))
+      OutputParameters &output  = scene.output;
+      const auto        named   = CurveAxes::read(output.curve);
+      const auto       &changed = scene.changed_entries;
+      const bool        is_fit =
+        std::any_of(changed.begin(), changed.end(), [](const auto &entry) {
+          return entry.name == "Task";
+        });
+      output.axes               = named ? *named : scene.usual_curve();
+      const bool is_other_curve = !named && !output.axes.is_torsion();
+      if (is_fit && !is_other_curve)
+        return;
+      const auto why = why_no_curve(output, output.axes);
+      if (why && is_other_curve && !why_no_curve(output, CurveAxes()))
         output.axes = CurveAxes();
-      // fits read their curves themselves, which may be others
-      const auto &changed = scene.changed_entries;
-      if (std::none_of(changed.begin(), changed.end(), [](const auto &entry) {
-            return entry.name == "Task";
-          }))
-        read(output.axes); // says what is wrong
+      else if (why && !is_fit)
+        throw *why;
     }
   } // namespace
 
@@ -115,10 +107,9 @@ namespace Debond
   {
     if (values.empty()) // a program has made this scene
       {
-        Scene      copy = *this;
-        EntryTable table;
-        copy.declare(table);
-        return table.entries();
+        Scene copy = *this;
+        copy.complete();
+        return copy.completed_entries();
       }
     std::vector<SceneEntry> result = default_entries().entries();
     for (std::size_t i = 0; i < result.size(); ++i)
@@ -131,14 +122,24 @@ namespace Debond
   namespace
   {
     void
-    take_entries(Scene &scene, const EntryTable &table)
+    take_entries(Scene &scene, const std::vector<SceneEntry> &entries)
     {
-      scene.completed_parameters = table.text() + identities(scene);
+      scene.completed_parameters = scene_text(entries) + identities(scene);
       scene.values.clear();
-      for (const SceneEntry &entry : table.entries())
+      for (const SceneEntry &entry : entries)
         scene.values.push_back(entry.value);
     }
   } // namespace
+
+
+
+  void
+  Scene::complete()
+  {
+    EntryTable table;
+    declare(table);
+    take_entries(*this, table.entries());
+  }
 
 
 
@@ -170,7 +171,7 @@ namespace Debond
       {
         throw scene.with_place(error);
       }
-    take_entries(scene, table);
+    take_entries(scene, table.entries());
     return scene;
   }
 
@@ -215,16 +216,6 @@ namespace Debond
 
 
 
-  void
-  Scene::complete()
-  {
-    EntryTable table;
-    declare(table);
-    take_entries(*this, table);
-  }
-
-
-
   namespace
   {
     /** What is solved, in lines. Files are named without their directories,
@@ -237,14 +228,15 @@ namespace Debond
         lines.push_back(entry.full_name() + " = '" + entry.value + "'");
       Classic<std::istringstream> contents(identities(scene));
       for (std::string line; std::getline(contents, line);)
-        if (line.rfind("# ", 0) == 0)
-          lines.push_back("the file " + line.substr(2));
-      const std::vector<std::string> files = files_of(scene);
-      for (std::string &line : lines)
-        for (const std::string &file : files)
-          boost::replace_all(line,
-                             file,
-                             std::filesystem::path(file).filename().string());
+        {
+          const std::string of_file = line.substr(2); // see identity_of()
+          const std::string file    = of_file.substr(0, of_file.rfind(": "));
+          lines.push_back("the file " + of_file);
+          for (std::string &each : lines)
+            boost::replace_all(each,
+                               file,
+                               std::filesystem::path(file).filename().string());
+        }
       // a program may give motions that no entry tells of
       for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
         {
@@ -331,6 +323,6 @@ namespace Debond
     if (scene != nullptr)
       for (const SceneEntry &entry : scene->completed_entries())
         table.set(entry);
-    table.print(out);
+    out << table.explained();
   }
 } // namespace Debond

@@ -5,8 +5,10 @@
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
 namespace Debond
@@ -35,85 +37,76 @@ namespace Debond
 
 
 
-    /** Whether a component changes with time or carries a load; refuses
-     *  expressions that cannot be read or have no finite value, and values that
-     *  cannot be computed with. */
-    bool
-    check_component(const Scene               &scene,
-                    const unsigned int         c,
-                    const std::vector<double> &times)
+    /** Values at these times of what @p function_of gives; refuses expressions
+     *  that cannot be read or have no finite value, and values beyond the
+     *  limit. */
+    std::vector<double>
+    checked_values(const std::string                   &entry,
+                   const std::function<TimeFunction()> &function_of,
+                   const std::vector<double>           &times,
+                   const double                         limit,
+                   const std::string                   &limit_in_words)
     {
-      const ChuckComponentParameters &component = scene.chuck.component[c];
-      const double                    largest   = component.loaded ? 1e12 : 1e6;
+      std::vector<double> values;
       try
         {
-          const TimeFunction function    = scene.value_over_time(c);
-          const double       first_value = function(times.front());
-          bool               varies      = false;
+          const TimeFunction function = function_of();
           for (const double time : times)
             {
-              const double value = function(time);
-              if (std::abs(value) > largest)
-                throw InputError(
-                  "it is " + to_text(component.into_bone ? -value : value) +
-                  " at t = " + to_text(time) + ": expected at most " +
-                  to_text(largest) +
-                  (component.loaded ? " N or N mm" : " mm or degrees"));
-              varies = varies || value != first_value;
-            }
-          return varies || (component.loaded && first_value != 0);
-        }
-      catch (const InputError &error)
-        {
-          throw EntryError(scene.chuck.entry_name(c, "Value"), error.what());
-        }
-    }
-
-
-
-    /** The same of the interference. */
-    bool
-    check_interference(const Scene &scene, const std::vector<double> &times)
-    {
-      const char *const entry = "Interface / Interference";
-      const double      R     = scene.implant.characteristic_radius();
-      bool              moves = false, varies = false;
-      try
-        {
-          const auto value =
-            read_time_function(scene.interface.interference, R);
-          for (const double time : times)
-            {
-              if (!(std::abs(value(time)) < R))
-                throw InputError("it is " + to_text(value(time)) +
-                                 " mm at t = " + to_text(time) +
-                                 ": expected less than the implant's radius");
-              moves  = moves || value(time) != 0.;
-              varies = varies || value(time) != value(times.front());
+              values.push_back(function(time));
+              if (!(std::abs(values.back()) < limit))
+                throw InputError("its magnitude is " +
+                                 to_text(std::abs(values.back())) +
+                                 " at t = " + to_text(time) +
+                                 ": expected less than " + limit_in_words);
             }
         }
       catch (const InputError &error)
         {
           throw EntryError(entry, error.what());
         }
-      if (moves && !scene.implant.geometry().is_in_bore())
-        throw EntryError(entry,
-                         "a " + scene.implant.shape_row().name +
-                           " is in no bore: expected 0",
-                         scene.interface.interference);
-      if (moves && scene.interface.joint()->pulls() &&
-          read_time_function(scene.interface.interference, R)(times.front()) <
-            0.)
-        throw EntryError(entry,
-                         "the bond is stretched from the beginning: with this "
-                         "Interface / Law expected 0 or more at first",
-                         scene.interface.interference);
-      if (varies && (scene.load_steps.adaptive || scene.load_steps.follow_path))
-        throw EntryError(entry,
-                         "it changes with time: expected planned steps, Load "
-                         "steps / Adaptive = false and Path following = none",
-                         scene.interface.interference);
-      return moves;
+      return values;
+    }
+
+
+
+    bool
+    varies(const std::vector<double> &values)
+    {
+      return values != std::vector<double>(values.size(), values.front());
+    }
+
+
+
+    /** Whether there is an interference. */
+    bool
+    check_interference(const Scene &scene, const std::vector<double> &times)
+    {
+      const InterfaceParameters &interface = scene.interface;
+      const double               R      = scene.implant.characteristic_radius();
+      const auto                 values = checked_values(
+        "Interface / Interference",
+        [&] { return read_time_function(interface.interference, R); },
+        times,
+        R,
+        "the implant's radius");
+      const auto refuse_if = [&](const bool is_wrong, const std::string &why) {
+        if (is_wrong)
+          throw EntryError("Interface / Interference",
+                           why,
+                           interface.interference);
+      };
+      const bool is_there = varies(values) || values.front() != 0.;
+      refuse_if(is_there && !scene.implant.geometry().is_in_bore(),
+                "a " + scene.implant.shape_row().name +
+                  " is in no bore: expected 0");
+      refuse_if(values.front() < 0. && interface.joint()->pulls(),
+                "the bond is stretched from the beginning: with this Interface "
+                "/ Law expected 0 or more at first");
+      refuse_if(varies(values) && !scene.load_steps.rows_are_planned(),
+                "it changes with time: expected planned steps, Load steps / "
+                "Adaptive = false and Path following = none");
+      return is_there;
     }
 
 
@@ -121,9 +114,18 @@ namespace Debond
     void
     check_chuck(const Scene &scene)
     {
-      const std::vector<double> times = scene.load_steps.sample_times(true);
+      const std::vector<double> times     = scene.load_steps.sample_times(true);
+      const auto                values_of = [&](const unsigned int c) {
+        const bool loaded = scene.chuck.component[c].loaded;
+        return checked_values(
+          scene.chuck.entry_name(c, "Value"),
+          [&] { return scene.value_over_time(c); },
+          times,
+          loaded ? 1e12 : 1e6,
+          loaded ? "1e12 N or N mm" : "1e6 mm or degrees");
+      };
       scene.chuck.check();
-      check_component(scene, ChuckComponent::rotation_z, times);
+      values_of(ChuckComponent::rotation_z); // tables may be over the angle
       scene.chuck.check_tables(times, scene.implant.characteristic_radius());
       bool moves = check_interference(scene, times);
       for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
@@ -135,8 +137,9 @@ namespace Debond
                                "it has no effect where the machine prescribes "
                                "a load: it is for Control = ") +
                                (is_rotation(c) ? "angle" : "displacement"));
-          const bool this_moves = check_component(scene, c, times);
-          moves                 = moves || this_moves;
+          const auto values = values_of(c);
+          moves             = moves || varies(values) ||
+                  (component.loaded && values.front() != 0.);
         }
       if (!moves)
         throw EntryError("",
@@ -185,23 +188,19 @@ namespace Debond
 
       if (interface.friction_starts_at <= times.front())
         return;
-      const bool is_planned = !load_steps.adaptive && !load_steps.follow_path;
-      std::vector<double> ends      = times; // of what has friction or has none
-      double              tolerance = 0.;
-      if (is_planned)
-        {
-          ends      = load_steps.planned_times();
-          tolerance = 1e-9 * (times.back() - times.front());
-        }
-      for (const double end : ends)
-        if (std::abs(end - interface.friction_starts_at) <= tolerance)
-          return;
-      throw EntryError(entry,
-                       is_planned ?
-                         "this is inside a planned step: expected the end of a "
-                         "step (Load steps / Times and Steps)" :
-                         "this is inside a phase: with adaptive steps or Path "
-                         "following one of Load steps / Times is expected");
+      const bool                is_planned = load_steps.rows_are_planned();
+      const std::vector<double> ends       = // of what has friction or has none
+        is_planned ? load_steps.planned_times() : times;
+      const double tolerance = 1e-9 * (times.back() - times.front());
+      if (std::none_of(ends.begin(), ends.end(), [&](const double end) {
+            return std::abs(end - interface.friction_starts_at) <= tolerance;
+          }))
+        throw EntryError(
+          entry,
+          is_planned ? "this is inside a planned step: expected the end of "
+                       "a step (Load steps / Times and Steps)" :
+                       "this is inside a phase: with adaptive steps or Path "
+                       "following one of Load steps / Times is expected");
     }
 
 
@@ -226,54 +225,52 @@ namespace Debond
 
 
 
-    /** Its error is of first order, and nothing estimates it. */
-    void
-    check_explicit_friction(const Scene &scene)
-    {
-      if (scene.load_steps.adaptive && scene.interface.explicit_friction)
-        throw EntryError("Expert / Friction update",
-                         "explicit depends on the size of the steps, which "
-                         "Load steps / Adaptive = true chooses: compare it in "
-                         "equal steps");
-    }
-
-
-
-    void
-    check_references(const OutputParameters &output)
-    {
-      read_profiles(output.reference_profiles);
-      if (!output.reference_profiles.empty() && output.profile_angles.empty())
-        throw EntryError("Output / Reference profiles",
-                         "it needs Output / Profile angles to compare at");
-    }
-
-
-
     /** The results of an earlier run may be removed before the next begins. */
     void
-    check_input_file(const std::string &file,
-                     const std::string &entry,
-                     const std::string &directory)
+    check_input_files(const Scene &scene)
     {
       namespace fs = std::filesystem;
+      std::vector<std::pair<std::string, std::string>> files{
+        {scene.bone.mesh_file, "Bone / Mesh file"},
+        {scene.implant.mesh_file, "Implant / Mesh file"},
+        {scene.bone.voxel_file, "Bone / Voxel file"},
+        {scene.interface.bonding.file, "Interface / Bonding / File"}};
+      for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
+        files.emplace_back(scene.chuck.component[c].file,
+                           scene.chuck.entry_name(c, "File"));
       std::error_code wrong;
-      if (!file.empty() &&
-          fs::weakly_canonical(file, wrong).parent_path() ==
-            fs::weakly_canonical(directory, wrong) &&
-          !wrong)
-        throw EntryError(entry,
-                         "this file is in the directory that the scene writes "
-                         "its results to (Output / Directory): copy it "
-                         "elsewhere first");
+      const fs::path  results =
+        fs::weakly_canonical(scene.output.directory, wrong);
+      for (const auto &[file, entry] : files)
+        if (!file.empty() &&
+            fs::weakly_canonical(file, wrong).parent_path() == results &&
+            !wrong)
+          throw EntryError(entry,
+                           "this file is in the directory that the scene "
+                           "writes its results to (Output / Directory): copy "
+                           "it elsewhere first");
     }
 
 
 
-    /** Such patterns are others on other meshes. */
+    /** What does not go with a model, beside what closed forms say
+     *  themselves. */
     void
-    check_pattern_of_auto(const BondingParameters &bonding)
+    check_model(const Scene &scene)
     {
+      const BondingParameters &bonding = scene.interface.bonding;
+      if (scene.bone.modulus && scene.model != ModelKind::finite_elements)
+        throw EntryError("Bone / Young modulus",
+                         "one that varies is for Model = finite elements, and "
+                         "closed forms know none: expected a number");
+      if (scene.model != ModelKind::automatic)
+        return;
+      for (const bool is_bone : {true, false})
+        if ((is_bone ? scene.bone : scene.implant).mesh)
+          throw EntryError(is_bone ? "Bone / Shape" : "Implant / Shape",
+                           "Model = auto makes its own meshes: expected Model "
+                           "= finite elements, or another shape");
+      // such patterns are others on other meshes
       const bool is_random = bonding.pattern == BondingPatternKind::random;
       if (bonding.pattern == BondingPatternKind::file ||
           (is_random && bonding.correlation_length == 0.))
@@ -298,17 +295,7 @@ namespace Debond
     bone.check("Bone");
     implant.check("Implant");
     check_faces(bone, implant);
-    for (const std::string section : {"Bone", "Implant"})
-      {
-        const BodyParameters &body = section == "Bone" ? bone : implant;
-        check_input_file(body.mesh_file,
-                         section + " / Mesh file",
-                         output.directory);
-        if (model == ModelKind::automatic && body.mesh)
-          throw EntryError(section + " / Shape",
-                           "Model = auto makes its own meshes: expected Model "
-                           "= finite elements, or another shape");
-      }
+    check_input_files(*this);
     if (bone.is_fitted() && implant.shape != BodyShape::coin &&
         implant.shape != BodyShape::cap)
       throw EntryError("Bone / Cells",
@@ -319,27 +306,22 @@ namespace Debond
     check_bonding_pattern(interface.bonding,
                           implant,
                           interface.points_per_element(bone, implant));
-    if (model == ModelKind::automatic)
-      check_pattern_of_auto(interface.bonding);
+    check_model(*this);
     load_steps.check();
     check_start_of_friction(interface, load_steps);
     check_rate(*this);
-    check_explicit_friction(*this);
+    // its error is of first order, and nothing estimates it
+    if (load_steps.adaptive && interface.explicit_friction)
+      throw EntryError("Expert / Friction update",
+                       "explicit depends on the size of the steps, which Load "
+                       "steps / Adaptive = true chooses: compare it in equal "
+                       "steps");
     check_chuck(*this);
     check_path_following(*this);
-    check_references(output);
-    check_input_file(interface.bonding.file,
-                     "Interface / Bonding / File",
-                     output.directory);
-    for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)
-      check_input_file(chuck.component[c].file,
-                       chuck.entry_name(c, "File"),
-                       output.directory);
-    check_input_file(bone.voxel_file, "Bone / Voxel file", output.directory);
-    if (bone.modulus && model != ModelKind::finite_elements)
-      throw EntryError("Bone / Young modulus",
-                       "one that varies is for Model = finite elements, and "
-                       "closed forms know none: expected a number");
+    read_profiles(output.reference_profiles);
+    if (!output.reference_profiles.empty() && output.profile_angles.empty())
+      throw EntryError("Output / Reference profiles",
+                       "it needs Output / Profile angles to compare at");
     if (bone.bulk_solver == BulkSolver::lattice && !why_not_lattice().empty())
       throw EntryError("Bone / Solver",
                        why_not_lattice() +

@@ -1,15 +1,13 @@
 #include <debond/support/input_error.h>
 #include <debond/support/interruption.h>
 #include <debond/support/laboratory.h>
+#include <debond/support/provenance.h>
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -50,31 +48,19 @@ namespace Debond
 
 
 
-      /** Words of a command line, as the system calls want them. */
-      struct CommandLine
+      /** Python, for which the module was built if it is there, and what it
+       *  is to do. */
+      std::vector<std::string>
+      python(const std::string &command, const std::vector<std::string> &words)
       {
-        CommandLine(const std::string              &command,
-                    const std::vector<std::string> &words)
-          : texts{python(), "-m", "debond", command}
-        {
-          texts.insert(texts.end(), words.begin(), words.end());
-          for (std::string &text : texts)
-            pointers.push_back(text.data());
-          pointers.push_back(nullptr);
-        }
-
-        CommandLine(const CommandLine &) = delete; ///< it points into itself
-
-        /** That for which the module was built, if it is there. */
-        static std::string
-        python()
-        {
-          return access(DEBOND_PYTHON, X_OK) == 0 ? DEBOND_PYTHON : "python3";
-        }
-
-        std::vector<std::string> texts;
-        std::vector<char *>      pointers;
-      };
+        const bool               is_there = access(DEBOND_PYTHON, X_OK) == 0;
+        std::vector<std::string> line{is_there ? DEBOND_PYTHON : "python3",
+                                      "-m",
+                                      "debond",
+                                      command};
+        line.insert(line.end(), words.begin(), words.end());
+        return line;
+      }
     } // namespace
 
 
@@ -85,14 +71,20 @@ namespace Debond
       std::cout << std::flush;
       say_where_the_package_is();
       ignore_again_what_was_ignored();
-      CommandLine line(command, words);
-      execvp(line.pointers[0], line.pointers.data());
+      std::vector<std::string> line = python(command, words);
+      std::vector<char *>      pointers;
+      for (std::string &word : line)
+        pointers.push_back(word.data());
+      pointers.push_back(nullptr);
+      execvp(pointers[0], pointers.data());
       throw InputError("debond: this is done in Python: " +
                        std::string(what_it_needs));
     }
 
 
 
+    // A shell has codes of its own, 127 if there is no such program. What is
+    // not read is not caught, and goes where this process writes.
     int
     run(const std::string              &command,
         const std::vector<std::string> &words,
@@ -100,38 +92,15 @@ namespace Debond
     {
       std::cout << std::flush;
       say_where_the_package_is();
-      const CommandLine          line(command, words);
-      std::array<int, 2>         pipe_ends{};
-      posix_spawn_file_actions_t actions;
-      if (output != nullptr && pipe2(pipe_ends.data(), O_CLOEXEC) != 0)
+      FILE *const pipe = popen(shell_line(python(command, words)).c_str(),
+                               output != nullptr ? "re" : "we");
+      if (pipe == nullptr)
         return 127;
-      posix_spawn_file_actions_init(&actions);
+      std::array<char, 65536> part{};
       if (output != nullptr)
-        posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
-      pid_t     child = 0;
-      const int error = posix_spawnp(&child,
-                                     line.pointers[0],
-                                     &actions,
-                                     nullptr,
-                                     line.pointers.data(),
-                                     environ);
-      posix_spawn_file_actions_destroy(&actions);
-      if (output != nullptr)
-        {
-          close(pipe_ends[1]);
-          std::array<char, 65536> part{};
-          for (ssize_t n = 1; n > 0 || (n < 0 && errno == EINTR);)
-            {
-              n = read(pipe_ends[0], part.data(), part.size());
-              output->append(part.data(), std::max<ssize_t>(n, 0));
-            }
-          close(pipe_ends[0]);
-        }
-      if (error != 0)
-        return 127;
-      int status = 0;
-      while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
+        while (const auto n = std::fread(part.data(), 1, part.size(), pipe))
+          output->append(part.data(), n);
+      const int status = pclose(pipe);
       return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     }
   } // namespace Laboratory

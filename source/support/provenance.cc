@@ -46,12 +46,21 @@ namespace Debond
 
 
 
+  std::string
+  shell_line(const std::vector<std::string> &words)
+  {
+    std::string line;
+    for (const std::string &word : words)
+      line += (line.empty() ? "" : " ") + quoted(word);
+    return line;
+  }
+
+
+
   void
   note_command(const int argc, const char *const *const argv)
   {
-    command.clear();
-    for (int i = 0; i < argc; ++i)
-      command += (i == 0 ? "" : " ") + quoted(argv[i]);
+    command = shell_line({argv, argv + argc});
   }
 
 

@@ -82,6 +82,8 @@ main()
                                        "x^0.5 && 1",
                                        "x^0.5 && 0",
                                        "1 && x^0.5",
+                                       "x > 0 && x^0.5 < 1",
+                                       "x < 0 || x^0.5 < 1",
                                        "x^0.5 || 1",
                                        "0 || x^0.5",
                                        "x < 0 ? x > -2 ? x^0.5 : 1 : 2",
@@ -98,8 +100,6 @@ main()
   expect(7, "if(x > 0, x^0.5 ? 1 : 2, 7)");
   expect(7, "x > 0 ? (x^0.5 < 1 ? 1 : 2) : 7");
   expect(7, "if(x > 0, min(1, x^0.5), 7)");
-  expect(0, "x > 0 && x^0.5 < 1");
-  expect(1, "x < 0 || x^0.5 < 1");
   expect(3, "if(x > 0, x^0.5, 7)", 9);
   expect(3, "x > 0 ? x^0.5 : 7", 9);
 
@@ -131,8 +131,6 @@ main()
   expect(1, "exp(1000 * x) > 5", 1);
   expect(1, "tanh(exp(1000 * x))", 1);
   expect(none, "exp(1000 * x) - exp(1000 * x)", 1);
-  expect(none, "min(1, (-exp(1000 * x))^0.5)", 1);
-  expect(none, "max(1, pow(-exp(1000 * x), -0.5))", 1);
   expect(1, "min(1, (-exp(1000 * x))^2)", 1);
 
   // what is not 0 is true
@@ -155,7 +153,6 @@ main()
     }
   expect(3, "rint(2.5)");
   expect(-2, "rint(-2.5)");
-  expect(0, "rint(0.49999999999999994)");
   expect(-3, "floor(-2.5)");
   expect(-2, "ceil(-2.5)");
   expect(-1, "sign(-0.1)");

@@ -236,7 +236,7 @@ namespace
           "ElementSize = 0.50 1 2\nHeaderSize = 0\n",
           "ElementSpacing = 500 1000 2000\nOffset = -1500 2000 -7000\n"
           "DistanceUnits = um\n",
-          "BinaryDataByteOrderMSB = False\nElementByteOrderMSB = 0\n",
+          "BinaryDataByteOrderMSB = False\nElementByteOrderMSB = false\n",
           "HeaderSize = -1\n",
           "HeaderSize = 16\nElementDataFile = lead.raw\n",
           "HeaderSize = -1\nElementDataFile = lead.raw\n",

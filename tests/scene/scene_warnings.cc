@@ -107,14 +107,6 @@ main()
   show({shear + "5 * max(t - 1, 0)"});
   show({shear + "3 * max(t - 1, 0)"});
   show({shear + "5 * max(t - 1, 0)", "Implant/Cells=8, 2"});
-  for (const std::string way : {"0.2", "0.3"})
-    show({shear + way + " * max(t - 1, 0)",
-          stiff,
-          "Bone/Cells=fitted",
-          "Bone/Element=spline"});
-  show({shear + "0.3 * max(t - 1, 0)",
-        "Bone/Cells=fitted",
-        "Bone/Element=spline"});
 
   show({twist + "5 * (t - 1)"});
   show({twist + "5 * (t - 1)", "Load steps/Times=1, 2, 3"});
@@ -145,8 +137,6 @@ main()
 
   show({"Load steps/Tolerance=1e-2"});
   show({"Load steps/Tolerance=1e-2", "Load steps/Adaptive=true"});
-  show({"Load steps/Steps=1, 10", "Load steps/Adaptive=true"});
-  show({"Interface/Friction law=rate and state", "Load steps/Adaptive=true"});
   show({"Model=auto"});
   show({"Load steps/Largest slip step=1e-3"});
   show({"Closed form/Shear modulus=50", "Closed form/Pressure=2"});

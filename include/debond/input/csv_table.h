@@ -30,11 +30,6 @@ namespace Debond
   std::vector<std::string>
   read_csv_header(const std::string &filename, const std::string &entry);
 
-  /** The fields of a line, without blanks around them; quotes may hold
-   *  separators. */
-  std::vector<std::string>
-  split_csv_line(const std::string &line, char separator);
-
   /** A line of a CSV file. Texts are quoted if they have to be, numbers have
    *  twelve significant digits. */
   std::string

@@ -5,12 +5,9 @@
 #include <debond/input/scene_file.h>
 #include <debond/support/number_text.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <ostream>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -78,21 +75,22 @@ namespace Debond
     bool
     has(const SceneEntry &entry) const;
 
-    /** All entries with their values, and these as the text of a scene. */
+    /** All entries with their values. */
     std::vector<SceneEntry>
     entries() const;
-    std::string
-    text() const;
 
-    /** The same with what the entries mean and allow. */
-    void
-    print(std::ostream &out) const;
+    /** The same as the text of a scene, with what they mean and allow. */
+    std::string
+    explained() const;
 
   private:
     struct Row
     {
       SceneEntry    entry; ///< with its value
       AllowedValues allowed;
+      std::string   documentation;
+      /** What brings a value to the members. */
+      std::vector<std::function<void(const std::string &)>> members;
     };
 
     /** The row of this name, or none. */
@@ -106,7 +104,6 @@ namespace Debond
     std::vector<std::string>           path; ///< the subsections that are open
     std::vector<Row>                   rows;
     std::map<std::string, std::size_t> numbers; ///< of rows, by full names
-    dealii::ParameterHandler           prm;     ///< values, and what they mean
   };
 
 

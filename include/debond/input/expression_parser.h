@@ -17,9 +17,9 @@ namespace Debond
    * commas. Constants are `pi` and `R` = @p radius [mm]. Throws InputError with
    * the expression and the parser's own words if it is invalid.
    *
-   * Its value is not a number where a part of it has none, unless that part is
-   * not chosen: by `if`, `a ? b : c`, or because the left of `&&` or `||`
-   * decides. Who asks for it says where that was, and remark_on_no_value.
+   * Its value is not a number where a part of it has none, unless `if` or
+   * `a ? b : c` does not choose that part. Who asks for it says where that was,
+   * and remark_on_no_value.
    */
   Expression
   read_expression(const std::string &variables,

@@ -35,15 +35,5 @@ namespace Debond
    *  spreadsheets of Windows write it. */
   std::string
   utf8(const std::string &text);
-
-  /** plain_text() in UTF-8 with the plain one of marks that look alike: blanks
-   * of any width, minus signs, dots of a product. Tables come from spreadsheets
-   *  and word processors, which choose them by themselves. */
-  std::string
-  plain_table(const std::string &bytes, const FileRefusal &refuse);
-
-  /** The same of a text that is UTF-8, as a scene's entry about a table. */
-  std::string
-  with_plain_marks(std::string text);
 } // namespace Debond
 #endif

@@ -50,9 +50,11 @@ namespace Debond
   with_overrides(std::vector<SceneEntry>         entries,
                  const std::vector<std::string> &overrides);
 
-  /** The text of a scene that sets these entries. */
+  /** The text of a scene that sets these entries, above each its documentation
+   *  if there is one. */
   std::string
-  scene_text(const std::vector<SceneEntry> &entries);
+  scene_text(const std::vector<SceneEntry>  &entries,
+             const std::vector<std::string> &documentation = {});
 
   /** Takes "Subsection/Entry=value" apart; its place is "--set". Throws
    *  InputError if there is no `=` or no name. */

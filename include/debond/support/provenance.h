@@ -7,6 +7,10 @@
 
 namespace Debond
 {
+  /** Words as a shell reads them. */
+  std::string
+  shell_line(const std::vector<std::string> &words);
+
   /** To be called by a program with the words that started it. */
   void
   note_command(int argc, const char *const *argv);

@@ -21,11 +21,9 @@ namespace Debond
 {
   // Without a bulk the body is rigid: its control points are where the mesh has
   // them, and no unknowns of the coupled system are its own.
-  Body::Body(const BodyParameters &parameters,
-             const Side            side,
-             const bool            has_bulk)
+  Body::Body(const BodyParameters &parameters, const Side side)
     : body_mesh(parameters, side)
-    , own_bulk(has_bulk ? make_bulk(body_mesh) : nullptr)
+    , own_bulk(parameters.is_rigid() ? nullptr : make_bulk(body_mesh))
     , condensing_bulk(dynamic_cast<const CondensingBulk *>(own_bulk.get()))
     , whole_bulk(dynamic_cast<const WholeBulk *>(own_bulk.get()))
     , v(Eigen::VectorXd::Zero(3 * body_mesh.n_nodes()))

@@ -21,9 +21,7 @@ namespace Debond
     class LinearBody : public Body
     {
     public:
-      LinearBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, true)
-      {}
+      using Body::Body;
 
       // r_c = S v_c + f_c [N].
       //
@@ -137,9 +135,7 @@ namespace Debond
     class LargeStrainBody : public Body
     {
     public:
-      LargeStrainBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, true)
-      {}
+      using Body::Body;
 
       // r~_c = R_c + f - K_ci K_ii^-1 R_i [N], with the true internal forces R
       // = int P : dF/dv dV (Eq. 1), and K of the state that was condensed last:
@@ -204,7 +200,7 @@ namespace Debond
     {
     public:
       WholeBody(const BodyParameters &parameters, const Side side)
-        : Body(parameters, side, true)
+        : Body(parameters, side)
         , bulk(*whole())
       {}
 
@@ -215,17 +211,15 @@ namespace Debond
       {
         Residual result;
         result.internal_force.setZero(v.size());
-        Eigen::VectorXd r;
-        if (has_small_strains())
-          r = linear_forces(result.energy);
-        else
+        if (!has_small_strains())
           result.valid =
             bulk.internal_forces(v, result.internal_force, result.energy);
         Eigen::VectorXd forces = result.internal_force;
         if (Ranks::is_first())
           forces.tail(contact_force.size()) += contact_force.reshaped();
-        const Eigen::VectorXd sum = bulk.assembled(forces);
-        r                         = r.size() == 0 ? sum : (r + sum).eval();
+        Eigen::VectorXd r = bulk.assembled(forces);
+        if (has_small_strains())
+          r += linear_forces(result.energy);
         static_cast<Bulk::Residual &>(result) =
           bulk.whole_residual(std::move(r));
         return result;

@@ -31,11 +31,7 @@ namespace Debond
     const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(x.rows());
     Eigen::MatrixXd       y = Eigen::MatrixXd::Zero(x.rows(), x.cols()), K;
     for (unsigned int j = 0; j < x.cols(); ++j)
-      {
-        Eigen::VectorXd column = x.col(j);
-        mesh.distribute(column);
-        x.col(j) = column;
-      }
+      mesh.distribute(x.col(j));
     for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
       {
         // Gather, multiply, scatter, as in a matrix-free operator.
@@ -53,40 +49,33 @@ namespace Debond
             y_cell.middleRows<3>(3 * a);
       }
     for (unsigned int j = 0; j < y.cols(); ++j)
-      {
-        Eigen::VectorXd column = y.col(j);
-        mesh.condense(column);
-        y.col(j) = column;
-      }
+      mesh.condense(y.col(j));
     return y;
   }
 
 
 
-  void
-  Bulk::dofs_of(const unsigned int                            cell,
-                std::vector<dealii::types::global_dof_index> &dofs) const
+  std::vector<dealii::types::global_dof_index>
+  Bulk::dofs_of(const unsigned int cell) const
   {
-    dofs.clear();
+    std::vector<dealii::types::global_dof_index> dofs;
     for (const unsigned int node : mesh.cells()[cell].nodes)
       for (unsigned int c = 0; c < 3; ++c)
         dofs.push_back(3 * node + c);
+    return dofs;
   }
 
 
 
-  void
-  Bulk::stiffness_of(const unsigned int                            cell,
-                     const Eigen::VectorXd                        &v,
-                     dealii::FullMatrix<double>                   &K,
-                     std::vector<dealii::types::global_dof_index> &dofs) const
+  dealii::FullMatrix<double>
+  Bulk::stiffness_of(const unsigned int cell, const Eigen::VectorXd &v) const
   {
     Eigen::MatrixXd tangent;
     cells.tangent(cell, v, tangent);
-    dofs_of(cell, dofs);
-    K.reinit(dofs.size(), dofs.size(), true);
     // symmetric: by rows is by columns
-    Eigen::Map<Eigen::MatrixXd>(&K(0, 0), K.m(), K.n()) = tangent;
+    return dealii::FullMatrix<double>(tangent.rows(),
+                                      tangent.cols(),
+                                      tangent.data());
   }
 
 

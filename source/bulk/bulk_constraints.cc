@@ -189,7 +189,7 @@ namespace Debond
 
 
   void
-  BulkSpace::distribute(Eigen::VectorXd &v) const
+  BulkSpace::distribute(Eigen::Ref<Eigen::VectorXd> v) const
   {
     for (const auto &line : follow.get_lines())
       {
@@ -202,7 +202,7 @@ namespace Debond
 
 
   void
-  BulkSpace::condense(Eigen::VectorXd &force) const
+  BulkSpace::condense(Eigen::Ref<Eigen::VectorXd> force) const
   {
     if (!cells_have_followers())
       return;

@@ -2,8 +2,6 @@
 #include <debond/bulk/neo_hookean.h>
 #include <debond/support/ranks.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <optional>
 #include <utility>
 
@@ -13,19 +11,10 @@ namespace Debond
   {
     /** Material of Bone / Material and Implant / Material; `linear' is the
      *  Neo-Hookean one at rest. Another material has its place here. */
-    std::shared_ptr<const HyperelasticMaterial>
+    HyperelasticMaterial
     make_material(const BodyParameters &body)
     {
-      switch (body.material)
-        {
-          case Material::rigid:
-          case Material::linear:
-          case Material::neo_hookean:
-            return material_of(
-              NeoHookean::from_young(body.young_modulus, body.poisson_ratio));
-        }
-      AssertThrow(false, dealii::ExcNotImplemented());
-      return nullptr;
+      return NeoHookean::from_young(body.young_modulus, body.poisson_ratio);
     }
   } // namespace
 

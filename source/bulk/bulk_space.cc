@@ -3,12 +3,9 @@
 #include <debond/support/ranks.h>
 
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/mapping_q.h>
 #include <deal.II/fe/mapping_q1.h>
-#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
-#include <deal.II/lac/vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +64,6 @@ namespace Debond
         place_nodes();
         number_nodes_of_cells();
       }
-    make_mapping();
     const ControlNet &control_points = contact_surface.control_points();
     for (unsigned int A = 0; A < control_points.cols(); ++A)
       reference_positions.push_back(control_points.col(A));
@@ -80,7 +76,6 @@ namespace Debond
   void
   BulkSpace::release_triangulation()
   {
-    active_cells.clear();
     dofs.clear();
     triangulation.clear();
   }
@@ -99,38 +94,26 @@ namespace Debond
       triangulation,
       {n[0] / n_wide, n[1] / n_wide, n[2]},
       dealii::Point<3>(),
-      dealii::Point<3>(n[0], n[1], n[2]));
-    set_boundary_ids();
+      dealii::Point<3>(n[0], n[1], n[2]),
+      true); // boundary ids are the numbers of faces
+    using namespace Boundary;
+    const Id ids[2][6] = {
+      {slides_x, slides_x, slides_y, slides_y, held, contact},
+      {Boundary::free,
+       Boundary::free,
+       Boundary::free,
+       Boundary::free,
+       contact,
+       held}};
+    for (const auto &face : triangulation.active_face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(ids[body_side][face->boundary_id()]);
     if (body_parameters.coarser_below)
       {
         for (const auto &[cell, face] : cells_at_contact_face(triangulation))
           cell->set_refine_flag(dealii::RefinementCase<3>::cut_xy);
         triangulation.execute_coarsening_and_refinement();
       }
-  }
-
-
-
-  // Indices say what is at the boundary.
-  void
-  BulkSpace::set_boundary_ids()
-  {
-    const auto  &n       = body_parameters.cells;
-    const bool   is_bone = body_side == Side::bone;
-    const double top = is_bone ? 0 : n[2], contact = is_bone ? n[2] : 0;
-    for (const auto &face : triangulation.active_face_iterators())
-      if (face->at_boundary())
-        {
-          const dealii::Point<3> p       = face->center();
-          const auto             is_side = [&](const unsigned int d) {
-            return is_bone && (p[d] == 0. || p[d] == n[d]);
-          };
-          face->set_boundary_id(p[2] == contact ? Boundary::contact :
-                                p[2] == top     ? Boundary::held :
-                                is_side(0)      ? Boundary::slides_x :
-                                is_side(1)      ? Boundary::slides_y :
-                                                  Boundary::free);
-        }
   }
 
 
@@ -146,7 +129,6 @@ namespace Debond
         Cell &info = bulk_cells.emplace_back();
         for (const unsigned int v : cell->vertex_indices())
           info.vertices[v] = cell->vertex_dof_index(v, 0) / 3;
-        active_cells.emplace_back(cell);
         if (!has_lattice())
           continue;
         const auto            &n     = body_parameters.cells;
@@ -224,24 +206,16 @@ namespace Debond
   BulkSpace::place_nodes()
   {
     reference_positions.resize(n_nodes_of_fe);
-    const auto put = [&](const unsigned int node, const dealii::Point<3> &p) {
-      reference_positions[node] << p[0], p[1], p[2];
-    };
     if (!has_lattice())
       {
         for (const auto &cell : dofs.active_cell_iterators())
           {
             const auto nodes = nodes_of_fe(cell);
-            if (degree() == 1)
-              for (const unsigned int v : cell->vertex_indices())
-                put(nodes[v], cell->vertex(v));
-            else
-              {
-                const auto places =
-                  body_parameters.mesh->points_of_second_order(cell);
-                for (unsigned int a = 0; a < nodes.size(); ++a)
-                  put(nodes[a], places[a]);
-              }
+            const auto places =
+              body_parameters.mesh->points_of_second_order(cell);
+            for (unsigned int a = 0; a < nodes.size(); ++a)
+              reference_positions[nodes[a]] << places[a][0], places[a][1],
+                places[a][2];
           }
         return;
       }
@@ -257,58 +231,6 @@ namespace Debond
             reference_positions[cell->vertex_dof_index(v, 0) / 3];
           cell->vertex(v) = dealii::Point<3>(X[0], X[1], X[2]);
         }
-  }
-
-
-
-  namespace
-  {
-    /** Each cell by itself. With one thread FEValues takes what it can from the
-     *  cell before if that is the same but for its place: other digits than
-     *  with several. */
-    template <typename MappingType>
-    class CellByCell : public MappingType
-    {
-    public:
-      using MappingType::MappingType;
-
-    protected:
-      dealii::CellSimilarity::Similarity
-      fill_fe_values(
-        const dealii::Triangulation<3>::cell_iterator &cell,
-        const dealii::CellSimilarity::Similarity,
-        const dealii::Quadrature<3>                                     &points,
-        const dealii::Mapping<3>::InternalDataBase                      &data,
-        dealii::internal::FEValuesImplementation::MappingRelatedData<3> &output)
-        const override
-      {
-        return MappingType::fill_fe_values(
-          cell, dealii::CellSimilarity::none, points, data, output);
-      }
-    };
-  } // namespace
-
-
-
-  // Quadratic cells are curved as the body is.
-  void
-  BulkSpace::make_mapping()
-  {
-    if (degree() == 1 || has_splines())
-      {
-        bulk_mapping = std::make_unique<CellByCell<dealii::MappingQ<3>>>(1);
-        return;
-      }
-    dealii::Vector<double> places(dofs.n_dofs());
-    for (unsigned int dof = 0; dof < places.size(); ++dof)
-      places[dof] = reference_positions[dof / 3][dof % 3];
-    auto mapping =
-      std::make_unique<CellByCell<dealii::MappingQCache<3>>>(degree());
-    mapping->initialize(dealii::StaticMappingQ1<3>::mapping,
-                        dofs,
-                        places,
-                        false);
-    bulk_mapping = std::move(mapping);
   }
 
 
@@ -426,17 +348,13 @@ namespace Debond
     std::vector<unsigned int> owner(n_nodes(), n_ranks);
     std::vector<Cell>         all_cells;
     all_cells.swap(bulk_cells);
-    active_cells.clear();
     for (const auto &cell : triangulation.active_cell_iterators())
       {
         Cell &info = all_cells[cell->active_cell_index()];
         for (const unsigned int node : info.nodes)
           owner[node] = std::min(owner[node], cell->subdomain_id());
-        if (cell->subdomain_id() != Ranks::own())
-          continue;
-        bulk_cells.push_back(std::move(info));
-        if (!has_splines())
-          active_cells.push_back(cell);
+        if (cell->subdomain_id() == Ranks::own())
+          bulk_cells.push_back(std::move(info));
       }
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       if (std::count(owner.begin(), owner.end(), rank) == 0)

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <iterator>
 #include <regex>
-#include <tuple>
 
 // Values of the chuck from a CSV file. Over the angle they are those at the
 // angle that the scene prescribes at a time, and so functions of time as all
@@ -23,44 +22,38 @@ namespace Debond
 
 
 
-    std::vector<std::vector<double>>
-    read_rows(const ChuckParameters &chuck, const unsigned int k)
-    {
-      const ChuckComponentParameters &component = chuck.component[k];
-      return read_measured_table(component.file,
-                                 chuck.entry_name(k, "File"),
-                                 {abscissa_of(component), chuck.file_column(k)},
-                                 component.columns,
-                                 chuck.entry_name(k, "File columns"));
-    }
-
-
-
     /** The rows of the file of component @p k: time, or else angle, and value.
      *  Sets which of them it is. */
     std::vector<std::vector<double>>
-    read_rows_over_time_or_angle(ChuckParameters &chuck, const unsigned int k)
+    read_rows(ChuckParameters &chuck, const unsigned int k)
     {
-      bool &over_angle = chuck.component[k].over_angle;
-      over_angle       = false;
+      ChuckComponentParameters &component = chuck.component[k];
+      const auto                read      = [&](const bool over_angle) {
+        component.over_angle = over_angle;
+        return read_measured_table(component.file,
+                                   chuck.entry_name(k, "File"),
+                                   {abscissa_of(component),
+                                    chuck.file_column(k)},
+                                   component.columns,
+                                   chuck.entry_name(k, "File columns"));
+      };
       try
         {
-          return read_rows(chuck, k);
+          return read(false);
         }
-      catch (const EntryError &error)
+      catch (const EntryError &of_time)
         {
-          over_angle = true;
           try
             {
-              return read_rows(chuck, k);
+              return read(true);
             }
           catch (const EntryError &of_angle)
             {
-              over_angle = false;
+              component.over_angle = false;
               // there is an angle, and the value is what is missing
               const bool has_angle =
                 of_angle.why.find("says deg") == std::string::npos;
-              throw has_angle ? of_angle : error;
+              throw has_angle ? of_angle : of_time;
             }
         }
     }
@@ -77,8 +70,7 @@ namespace Debond
                            chuck.component[k].file);
       };
       std::vector<double> x, values;
-      for (const std::vector<double> &row :
-           read_rows_over_time_or_angle(chuck, k))
+      for (const std::vector<double> &row : read_rows(chuck, k))
         {
           // an instrument at rest
           if (!x.empty() && row[0] == x.back() && row[1] == values.back())
@@ -149,38 +141,26 @@ namespace Debond
 
 
   TimeFunction
-  ChuckParameters::value_as_given(const unsigned int k,
-                                  const double       radius) const
-  {
-    const auto &[table, value, function] =
-      std::tie(component[k].table, component[k].value, component[k].function);
-    if (function || !table)
-      return read_time_function(value, radius, function);
-    const TimeFunction of_table =
-      [table = table, at = abscissa_over_time(k, radius)](const double time) {
-        return (*table)(at(time));
-      };
-    if (value == "0")
-      return of_table;
-    return read_time_function(
-      value,
-      radius,
-      [of_table, expression = read_expression("t, table", value, radius)](
-        const double time) {
-        return expression({time, of_table(time)});
-      });
-  }
-
-
-
-  TimeFunction
   ChuckParameters::value_over_time(const unsigned int k,
                                    const double       radius) const
   {
-    const TimeFunction given = value_as_given(k, radius);
-    if (!component[k].into_bone)
-      return given;
-    return [given](const double time) { return -given(time); };
+    const ChuckComponentParameters &c     = component[k];
+    TimeFunction                    value = c.function;
+    if (!value && c.table)
+      {
+        value = [table = c.table, at = abscissa_over_time(k, radius)](
+                  const double time) { return (*table)(at(time)); };
+        if (c.value != "0")
+          value = [value,
+                   of_table = read_expression("t, table", c.value, radius)](
+                    const double time) {
+            return of_table({time, value(time)});
+          };
+      }
+    value = read_time_function(c.value, radius, value);
+    if (!c.into_bone)
+      return value;
+    return [value](const double time) { return -value(time); };
   }
 
 

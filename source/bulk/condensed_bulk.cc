@@ -85,12 +85,11 @@ namespace Debond
         // The patterns stay; values are needed until CHOLMOD has them.
         for (const auto &block : blocks)
           block->K.reinit(block->pattern);
-        dealii::FullMatrix<double>                   K;
-        std::vector<dealii::types::global_dof_index> dofs;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           if (const unsigned int n_images = n_images_of(cell))
             {
-              stiffness_of(cell, v, K, dofs);
+              const auto dofs = dofs_of(cell);
+              auto       K    = stiffness_of(cell, v);
               K *= n_images;
               for (const auto &block : blocks)
                 block->constraints.distribute_local_to_global(K,
@@ -118,19 +117,19 @@ namespace Debond
       Eigen::VectorXd
       product(const Eigen::VectorXd &x) const override
       {
-        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(x.size(), 1);
+        Eigen::VectorXd result = Eigen::VectorXd::Zero(x.size());
         for (const auto &block : blocks)
-          block->unfold(block->condensation.schur_product(block->fold(x)),
-                        result);
+          block->unknowns.unfold(
+            block->condensation.schur_product(block->unknowns.fold(x)), result);
         return result;
       }
       Eigen::VectorXd
       solve(const Eigen::VectorXd &b) const override
       {
-        Eigen::MatrixXd result = Eigen::MatrixXd::Zero(b.size(), 1);
+        Eigen::VectorXd result = Eigen::VectorXd::Zero(b.size());
         for (const auto &block : blocks)
-          block->unfold(block->condensation.schur_solve(block->fold(b)),
-                        result);
+          block->unknowns.unfold(
+            block->condensation.schur_solve(block->unknowns.fold(b)), result);
         return result;
       }
       // A condensed bulk couples every unknown with every other one. It has S
@@ -148,14 +147,12 @@ namespace Debond
         for (const auto &block : blocks)
           {
             const Eigen::MatrixXd part = block->condensation.schur_complement();
+            const auto &[n_parts, number, coefficient] = block->unknowns;
             for (unsigned int j = 0; j < n; ++j)
               for (unsigned int i = 0; i < n; ++i)
-                if (block->unknown_number[i] >= 0 &&
-                    block->unknown_number[j] >= 0)
-                  S(i, j) +=
-                    block->unknown_coefficient[i] *
-                    block->unknown_coefficient[j] *
-                    part(block->unknown_number[i], block->unknown_number[j]);
+                if (number[i] >= 0 && number[j] >= 0)
+                  S(i, j) += coefficient[i] * coefficient[j] *
+                             part(number[i], number[j]);
           }
         return S;
       }
@@ -170,14 +167,14 @@ namespace Debond
       {
         // Tied vertices have no entry of their own: their forces have gone to
         // the control points, as cells know no other nodes on that face.
-        Bulk::Residual  result;
-        Eigen::MatrixXd condensed = Eigen::MatrixXd::Zero(unknowns.size(), 1);
+        Bulk::Residual result;
+        result.condensed.setZero(unknowns.size());
         std::vector<double> interior;
         for (const auto &block : blocks)
           {
             const Eigen::VectorXd folded = block->dofs.fold(r);
             const auto            parts  = block->condensation.forward(folded);
-            block->unfold(parts.condensed, condensed);
+            block->unknowns.unfold(parts.condensed, result.condensed);
             interior.insert(interior.end(),
                             parts.interior.begin(),
                             parts.interior.end());
@@ -185,7 +182,6 @@ namespace Debond
             result.interior_squared +=
               folded.squaredNorm() - folded(block->condensed).squaredNorm();
           }
-        result.condensed = condensed;
         result.interior =
           Eigen::Map<Eigen::VectorXd>(interior.data(), interior.size());
         return result;
@@ -206,7 +202,7 @@ namespace Debond
                                      0 :
                                      block->dofs.n - block->condensed.size();
             block->dofs.unfold(
-              -block->condensation.backward(-block->fold(dv_c),
+              -block->condensation.backward(-block->unknowns.fold(dv_c),
                                             r.interior.segment(first, n)),
               dv);
             first += n;
@@ -226,11 +222,9 @@ namespace Debond
         dealii::SparsityPattern                 pattern;
         dealii::SparseMatrix<double>            K;
         std::vector<int> condensed; ///< numbers of those of the unknowns
-        /** Of an unknown: the number of its motion among the condensed ones,
-         *  -1: none, and its coefficient. */
-        std::vector<int>    unknown_number;
-        std::vector<double> unknown_coefficient;
-        Condensation        condensation;
+        /** These motions over the unknowns instead of degrees of freedom. */
+        DofClass     unknowns;
+        Condensation condensation;
 
         Block(const BulkSpace                         &space,
               const dealii::AffineConstraints<double> &constraints)
@@ -263,13 +257,12 @@ namespace Debond
         }
 
         void
-        condense_on(const std::vector<unsigned int> &unknowns)
+        condense_on(const std::vector<unsigned int> &unknown_dofs)
         {
           condensed.clear();
-          unknown_number.clear();
-          unknown_coefficient.clear();
+          unknowns = DofClass();
           std::vector<int> place(dofs.n, -1); // among the condensed ones
-          for (const unsigned int dof : unknowns)
+          for (const unsigned int dof : unknown_dofs)
             {
               const int number = dofs.number[dof];
               if (number >= 0 && place[number] < 0)
@@ -277,27 +270,10 @@ namespace Debond
                   place[number] = condensed.size();
                   condensed.push_back(number);
                 }
-              unknown_number.push_back(number >= 0 ? place[number] : -1);
-              unknown_coefficient.push_back(dofs.coefficient[dof]);
+              unknowns.number.push_back(number >= 0 ? place[number] : -1);
+              unknowns.coefficient.push_back(dofs.coefficient[dof]);
             }
-        }
-
-        /** As DofClass, for columns over the unknowns. */
-        Eigen::MatrixXd
-        fold(const Eigen::MatrixXd &x) const
-        {
-          Eigen::MatrixXd y = Eigen::MatrixXd::Zero(condensed.size(), x.cols());
-          for (unsigned int k = 0; k < unknown_number.size(); ++k)
-            if (unknown_number[k] >= 0)
-              y.row(unknown_number[k]) += unknown_coefficient[k] * x.row(k);
-          return y;
-        }
-        void
-        unfold(const Eigen::MatrixXd &y, Eigen::MatrixXd &x) const
-        {
-          for (unsigned int k = 0; k < unknown_number.size(); ++k)
-            if (unknown_number[k] >= 0)
-              x.row(k) += unknown_coefficient[k] * y.row(unknown_number[k]);
+          unknowns.n = condensed.size();
         }
       };
 
@@ -314,13 +290,11 @@ namespace Debond
         blocks.push_back(std::make_unique<Block>(mesh, constraints));
         Block                         &block = *blocks.back();
         dealii::DynamicSparsityPattern pattern(3 * mesh.n_nodes());
-        std::vector<dealii::types::global_dof_index> dofs;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
           if (n_images_of(cell) > 0)
-            {
-              dofs_of(cell, dofs);
-              constraints.add_entries_local_to_global(dofs, pattern, false);
-            }
+            constraints.add_entries_local_to_global(dofs_of(cell),
+                                                    pattern,
+                                                    false);
         block.pattern.copy_from(pattern);
       }
 

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <utility>
 
 namespace Debond
 {
@@ -35,11 +34,10 @@ namespace Debond
 
 
 
-  EnrichedCells::EnrichedCells(
-    const BulkSpace                            &mesh,
-    std::shared_ptr<const HyperelasticMaterial> material)
+  EnrichedCells::EnrichedCells(const BulkSpace            &mesh,
+                               const HyperelasticMaterial &material)
     : mesh(mesh)
-    , bulk_material(std::move(material))
+    , bulk_material(material)
     // nine control points of a patch that shares its border only have motions
     // that two points along an edge do not see
     , line(
@@ -50,11 +48,6 @@ namespace Debond
     , quadrature(line.size())
   {
     const BodyParameters    &body = mesh.parameters();
-    dealii::FEValues<3>      fe_values(mesh.mapping(),
-                                  mesh.element(),
-                                  quadrature,
-                                  dealii::update_gradients |
-                                    dealii::update_JxW_values);
     std::vector<ShapeValues> phi;
     for (const dealii::Point<3> &point : quadrature.get_points())
       phi.push_back(shape_values(mesh.element(), point));
@@ -73,13 +66,8 @@ namespace Debond
         const auto [found, is_new] =
           kind_of_place.emplace(place_of_kind(body, cell, info),
                                 first_gradient.size());
-        if (is_new && (info.enriched || mesh.has_splines()))
+        if (is_new)
           add_cell(info, phi);
-        else if (is_new)
-          {
-            fe_values.reinit(mesh.active_cell(cell));
-            add_cell(fe_values);
-          }
         kinds.push_back(found->second);
       }
     if (body.modulus)
@@ -138,36 +126,21 @@ namespace Debond
 
 
 
-  // Cells of FE_Q are what FEValues is for; of those with other functions it
-  // takes the isoparametric map X(xi) = sum_a N_a X_a: with J = dX/dxi
-  // gradients are J^-T dN_a/dxi, and a Gauss point stands for det J of the
-  // volume.
-  void
-  EnrichedCells::add_cell(const dealii::FEValues<3> &fe_values)
-  {
-    double *gradient = new_kind(fe_values.dofs_per_cell);
-    for (const unsigned int a : fe_values.dof_indices())
-      for (unsigned int d = 0; d < 3; ++d)
-        for (const unsigned int q : fe_values.quadrature_point_indices())
-          *gradient++ = fe_values.shape_grad(a, q)[d];
-    JxW.insert(JxW.end(),
-               fe_values.get_JxW_values().begin(),
-               fe_values.get_JxW_values().end());
-  }
-
-
-
+  // The map is isoparametric, X(xi) = sum_a N_a X_a: with J = dX/dxi gradients
+  // are J^-T dN_a/dxi, and a Gauss point stands for det J of the volume.
+  // FEValues knows neither NURBS nor splines, and of FE_Q it comes to the same.
   void
   EnrichedCells::add_cell(const BulkSpace::Cell          &cell,
                           const std::vector<ShapeValues> &phi)
   {
-    const unsigned int  n        = cell.nodes.size();
-    double *const       gradient = new_kind(n);
+    const unsigned int n = cell.nodes.size(), n_q = n_points();
+    first_gradient.push_back(gradient_list.size());
+    gradient_list.resize(first_gradient.back() + 3 * n_q * n);
+    double *const       gradient = &gradient_list[first_gradient.back()];
     const CellFunctions functions(mesh, cell);
     ControlNet          X(3, n);
     for (unsigned int a = 0; a < n; ++a)
       X.col(a) = mesh.reference_position(cell.nodes[a]);
-    const unsigned int n_q = n_points();
     for (unsigned int q = 0; q < n_q; ++q)
       {
         const ShapeValues     N = functions.at(quadrature.point(q), phi[q]);
@@ -179,17 +152,6 @@ namespace Debond
             gradient[(3 * a + d) * n_q + q] =
               N.row(a).tail<3>().dot(J_inverse.col(d));
       }
-  }
-
-
-
-  double *
-  EnrichedCells::new_kind(const unsigned int n_functions)
-  {
-    const std::size_t offset = gradient_list.size();
-    first_gradient.push_back(offset);
-    gradient_list.resize(offset + 3 * n_points() * n_functions);
-    return &gradient_list[offset];
   }
 
 
@@ -236,7 +198,7 @@ namespace Debond
   {
     PointValues<n_q> H[3][3], P[3][3], W;
     gradient_at_points<n_q>(cell, v, H);
-    bulk_material->stress(H, P, W);
+    bulk_material.stress(H, P, W);
     const PointValues<n_q> weight = weights<n_q>(cell);
     sum.energy += (W * weight).sum();
     sum.smallest_j = std::min(sum.smallest_j, volume_change(H).minCoeff());
@@ -301,10 +263,10 @@ namespace Debond
           const PointValues<n_q> at_rest[3][3]{{zero, zero, zero},
                                                {zero, zero, zero},
                                                {zero, zero, zero}};
-          bulk_material->tangent(at_rest, C);
+          bulk_material.tangent(at_rest, C);
         }
       else
-        bulk_material->stress(H, P, W);
+        bulk_material.stress(H, P, W);
       const PointValues<n_q>       j      = volume_change(H);
       const Eigen::ArrayXd         factor = stiffness_factors(cell);
       std::vector<Eigen::Matrix3d> result(n_q, Eigen::Matrix3d::Zero());
@@ -352,7 +314,7 @@ namespace Debond
     const unsigned int n = n_nodes(cell);
     PointValues<n_q>   H[3][3], C[3][3][3][3];
     gradient_at_points<n_q>(cell, v, H);
-    bulk_material->tangent(H, C);
+    bulk_material.tangent(H, C);
     const PointValues<n_q>            weight = weights<n_q>(cell);
     const Eigen::Map<const Gradients> g(gradients(cell), 3 * n_q, n);
     Gradients                         C_g(3 * n_q, n);

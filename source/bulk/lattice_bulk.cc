@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
+#include <type_traits>
 
 // The exact solver of a block of equal splines: sines and cosines across
 // diagonalise its stiffness, and what is left along the depth is a banded
@@ -83,9 +85,8 @@ namespace Debond
     {
       const unsigned int n = splines.n_basis_functions();
       Integrals          result;
-      for (Eigen::MatrixXd *matrix :
-           {&result.values, &result.slopes, &result.slope_value})
-        matrix->setZero(n, n);
+      result.values = result.slopes = result.slope_value =
+        Eigen::MatrixXd::Zero(n, n);
       for (unsigned int span = 0; span < splines.n_spans(); ++span)
         for (const double side : {-1., 1.})
           {
@@ -121,9 +122,6 @@ namespace Debond
         : n(n_spans)
         , cosines(n, n + 1)
         , sines(n, n + 1)
-        , values(n + 1)
-        , slopes(n + 1)
-        , slope_value(n + 1)
       {
         for (unsigned int p = 0; p <= n; ++p)
           {
@@ -143,19 +141,16 @@ namespace Debond
           integrals_of(KnotVector::graded(2, 7),
                        7. * length / n,
                        [](unsigned int, double) { return 1.; });
-        for (unsigned int p = 0; p <= n; ++p)
+        const Eigen::ArrayXd theta = Eigen::ArrayXd::LinSpaced(n + 1, 0., M_PI);
+        values.setConstant(n + 1, common.values(3, 3));
+        slopes.setConstant(n + 1, common.slopes(3, 3));
+        slope_value.setZero(n + 1);
+        for (const int k : {1, 2})
           {
-            const double theta = p * M_PI / n;
-            values[p]          = common.values(3, 3);
-            slopes[p]          = common.slopes(3, 3);
-            slope_value[p]     = 0.;
-            for (const int k : {1, 2})
-              {
-                values[p] += 2. * common.values(3, 3 + k) * std::cos(k * theta);
-                slopes[p] += 2. * common.slopes(3, 3 + k) * std::cos(k * theta);
-                slope_value[p] -=
-                  2. * common.slope_value(3, 3 + k) * std::sin(k * theta);
-              }
+            values += 2. * common.values(3, 3 + k) * (k * theta).cos();
+            slopes += 2. * common.slopes(3, 3 + k) * (k * theta).cos();
+            slope_value -=
+              2. * common.slope_value(3, 3 + k) * (k * theta).sin();
           }
       }
     };
@@ -165,10 +160,22 @@ namespace Debond
     /** The three components of a motion of one level: a row for each
      *  coefficient or wave along x, a column along y. */
     using Level = std::array<Eigen::MatrixXd, 3>;
-    /** A symmetric 3 x 3 matrix for each pair of waves: entries (0, 0), (0, 1),
-     *  (0, 2), (1, 1), (1, 2), (2, 2). */
-    using WaveMatrices = std::array<Eigen::ArrayXXd, 6>;
-    constexpr unsigned int entry_of[3][3]{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+    /** A component of a vector over n_1 x n_2 control points, const or not. */
+    template <typename Vector>
+    auto
+    component(Vector &x, const unsigned int c, const unsigned int n_1)
+    {
+      using Matrix = std::conditional_t<std::is_const_v<Vector>,
+                                        const Eigen::MatrixXd,
+                                        Eigen::MatrixXd>;
+      using Stride = Eigen::Stride<Eigen::Dynamic, 3>;
+      return Eigen::Map<Matrix, 0, Stride>(x.data() + c,
+                                           n_1,
+                                           x.size() / (3 * n_1),
+                                           Stride(3 * n_1, 3));
+    }
+    /** A 3 x 3 matrix for each pair of waves. */
+    using WaveMatrices = std::array<std::array<Eigen::ArrayXXd, 3>, 3>;
 
 
 
@@ -218,32 +225,30 @@ namespace Debond
       bool
       linearise(const Eigen::VectorXd &) override
       {
-        if (stiffness[0].size() > 0)
+        if (stiffness[0][0].size() > 0)
           return true;
-        const Eigen::Index n_p = across[0].n + 1, n_q = across[1].n + 1;
-        WaveMatrices       S;
-        for (unsigned int k = 0; k < 6; ++k)
-          {
-            S[k].resize(n_p, n_q);
-            flexibility[k].resize(n_p, n_q);
-          }
-        const bool is_positive = for_each_wave([&](const Eigen::Index p,
-                                                   const Eigen::Index q,
-                                                   const Column      &factor) {
-          // the face is eliminated last: its part of the factor is that of S
-          const unsigned int first = 3 * (n_levels - 1);
-          Eigen::Matrix3d    L     = Eigen::Matrix3d::Zero();
-          for (unsigned int j = 0; j < 3; ++j)
-            for (unsigned int i = j; i < 3; ++i)
-              L(i, j) = factor(i - j, first + j);
-          const Eigen::Matrix3d S_pq = L * L.transpose(), F_pq = S_pq.inverse();
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = i; j < 3; ++j)
-              {
-                S[entry_of[i][j]](p, q)           = S_pq(i, j);
-                flexibility[entry_of[i][j]](p, q) = F_pq(i, j);
-              }
-        });
+        WaveMatrices S;
+        for (WaveMatrices *const matrices : {&S, &flexibility})
+          for (auto &row : *matrices)
+            for (Eigen::ArrayXXd &entry : row)
+              entry.resize(across[0].n + 1, across[1].n + 1);
+        const bool is_positive =
+          for_each_wave([&](const auto p, const auto q, const Column &factor) {
+            // the face is eliminated last: its part of the factor is that of S
+            const unsigned int first = 3 * (n_levels - 1);
+            Eigen::Matrix3d    L     = Eigen::Matrix3d::Zero();
+            for (unsigned int j = 0; j < 3; ++j)
+              for (unsigned int i = j; i < 3; ++i)
+                L(i, j) = factor(i - j, first + j);
+            const Eigen::Matrix3d S_pq = L * L.transpose(),
+                                  F_pq = S_pq.inverse();
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                {
+                  S[i][j](p, q)           = S_pq(i, j);
+                  flexibility[i][j](p, q) = F_pq(i, j);
+                }
+          });
         if (is_positive)
           stiffness = std::move(S);
         return is_positive;
@@ -280,7 +285,12 @@ namespace Debond
         std::vector<Level> levels;
         for (unsigned int level = 0; level < n_levels; ++level)
           {
-            levels.push_back(folded(r, level));
+            levels.push_back(zero_level());
+            for_each_dof(level,
+                         levels.back(),
+                         [&](const unsigned int dof, double &sum) {
+                           sum += r[dof];
+                         });
             for (const Eigen::MatrixXd &component : levels.back())
               {
                 result.norm_squared += component.squaredNorm();
@@ -301,8 +311,10 @@ namespace Debond
         Eigen::VectorXd at_face = dv_c;
         if (r.interior.size() > 0)
           at_face += r.interior(unknowns);
-        std::vector<Level> levels(n_levels, zero_level());
-        levels[0]          = level_of(product(at_face));
+        std::vector<Level>    levels(n_levels, zero_level());
+        const Eigen::VectorXd forces = product(at_face);
+        for (unsigned int c = 0; c < 3; ++c)
+          levels[0][c] = component(forces, c, across[0].n);
         Eigen::VectorXd dv = solved(levels);
         if (r.interior.size() > 0)
           dv -= r.interior;
@@ -337,21 +349,6 @@ namespace Debond
         return {{zero, zero, zero}};
       }
 
-      /** A vector over the unknowns as a level. */
-      Level
-      level_of(const Eigen::VectorXd &x) const
-      {
-        Level result;
-        for (unsigned int c = 0; c < 3; ++c)
-          result[c] = Eigen::
-            Map<const Eigen::MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, 3>>(
-              x.data() + c,
-              across[0].n,
-              across[1].n,
-              Eigen::Stride<Eigen::Dynamic, 3>(3 * across[0].n, 3));
-        return result;
-      }
-
       /** The functions of component c along x (0) or y (1). */
       const Eigen::MatrixXd &
       waves(const unsigned int c, const unsigned int direction) const
@@ -359,56 +356,57 @@ namespace Debond
         return c == direction ? across[direction].sines :
                                 across[direction].cosines;
       }
-      Eigen::MatrixXd
-      to_waves(const Eigen::MatrixXd &x, const unsigned int c) const
-      {
-        return waves(c, 0).transpose() * (x * waves(c, 1));
-      }
-      Eigen::MatrixXd
-      from_waves(const Eigen::MatrixXd &x, const unsigned int c) const
-      {
-        return waves(c, 0) * (x * waves(c, 1).transpose());
-      }
-
-      /** A product with a matrix for each pair of waves, component by component
-       *  in threads. */
-      Eigen::VectorXd
-      multiplied(const WaveMatrices &matrices, const Eigen::VectorXd &x) const
-      {
-        Level           level = level_of(x);
-        Eigen::VectorXd result(x.size());
-        for_each_component(
-          [&](const unsigned int c) { level[c] = to_waves(level[c], c); });
-        for_each_component([&](const unsigned int c) {
-          const Eigen::MatrixXd of_waves =
-            matrices[entry_of[c][0]] * level[0].array() +
-            matrices[entry_of[c][1]] * level[1].array() +
-            matrices[entry_of[c][2]] * level[2].array();
-          const Eigen::MatrixXd y = from_waves(of_waves, c);
-          for (Eigen::Index k = 0; k < y.size(); ++k)
-            result[3 * k + c] = y.data()[k];
-        });
-        return result;
-      }
-
+      /** work(component), in threads. */
       template <typename Work>
       static void
       for_each_component(const Work &work)
       {
-        for_each_chunk(3,
-                       [&](unsigned int,
-                           const unsigned int first,
-                           const unsigned int end) {
-                         for (unsigned int c = first; c < end; ++c)
-                           work(c);
-                       });
+        for_each_chunk(3, [&](unsigned int, unsigned int c, const auto end) {
+          for (; c < end; ++c)
+            work(c);
+        });
+      }
+      void
+      to_waves(Level &level) const
+      {
+        for_each_component([&](const unsigned int c) {
+          level[c] = waves(c, 0).transpose() * (level[c] * waves(c, 1));
+        });
+      }
+      void
+      from_waves(Level &level) const
+      {
+        for_each_component([&](const unsigned int c) {
+          level[c] = waves(c, 0) * (level[c] * waves(c, 1).transpose());
+        });
       }
 
-      /** Where the motion of a node is to be found: that of the sides is that
-       *  of their neighbours. work(degree of freedom, component, i, j). */
+      /** A product with a matrix for each pair of waves. */
+      Eigen::VectorXd
+      multiplied(const WaveMatrices &matrices, const Eigen::VectorXd &x) const
+      {
+        Level           level, product;
+        Eigen::VectorXd result(x.size());
+        for (unsigned int c = 0; c < 3; ++c)
+          level[c] = component(x, c, across[0].n);
+        to_waves(level);
+        for (unsigned int c = 0; c < 3; ++c)
+          product[c] = matrices[c][0] * level[0].array() +
+                       matrices[c][1] * level[1].array() +
+                       matrices[c][2] * level[2].array();
+        from_waves(product);
+        for (unsigned int c = 0; c < 3; ++c)
+          component(result, c, across[0].n) = product[c];
+        return result;
+      }
+
+      /** work(degree of freedom, entry of its motion). That of the sides is
+       *  that of their neighbours. */
       template <typename Work>
       void
-      for_each_dof(const unsigned int level, const Work &work) const
+      for_each_dof(const unsigned int level,
+                   Level             &motion,
+                   const Work        &work) const
       {
         const unsigned int n_1 = across[0].n, n_2 = across[1].n;
         const unsigned int first =
@@ -421,22 +419,9 @@ namespace Debond
                 const unsigned int node = first + i + (n_1 + 2) * j;
                 if (!mesh.is_fixed(node, c))
                   work(3 * node + c,
-                       c,
-                       std::clamp(i, 1u, n_1) - 1,
-                       std::clamp(j, 1u, n_2) - 1);
+                       motion[c](std::clamp(i, 1u, n_1) - 1,
+                                 std::clamp(j, 1u, n_2) - 1));
               }
-      }
-
-      Level
-      folded(const Eigen::VectorXd &r, const unsigned int level) const
-      {
-        Level result = zero_level();
-        for_each_dof(level,
-                     [&](const unsigned int dof,
-                         const unsigned int c,
-                         const unsigned int i,
-                         const unsigned int j) { result[c](i, j) += r[dof]; });
-        return result;
       }
 
       /** K^-1 b over all nodes, b by levels. */
@@ -444,11 +429,8 @@ namespace Debond
       solved(std::vector<Level> &b) const
       {
         for (Level &level : b)
-          for_each_component(
-            [&](const unsigned int c) { level[c] = to_waves(level[c], c); });
-        for_each_wave([&](const Eigen::Index p,
-                          const Eigen::Index q,
-                          const Column      &factor) {
+          to_waves(level);
+        for_each_wave([&](const auto p, const auto q, const Column &factor) {
           const int       n = 3 * n_levels, one = 1, rows = half_band + 1;
           int             info;
           Eigen::VectorXd x(n);
@@ -469,15 +451,11 @@ namespace Debond
         Eigen::VectorXd v = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
         for (unsigned int level = 0; level < n_levels; ++level)
           {
-            for_each_component([&](const unsigned int c) {
-              b[level][c] = from_waves(b[level][c], c);
-            });
+            from_waves(b[level]);
             for_each_dof(level,
-                         [&](const unsigned int dof,
-                             const unsigned int c,
-                             const unsigned int i,
-                             const unsigned int j) {
-                           v[dof] = b[level][c](i, j);
+                         b[level],
+                         [&](const unsigned int dof, const double motion) {
+                           v[dof] = motion;
                          });
           }
         return v;
@@ -489,29 +467,25 @@ namespace Debond
       bool
       for_each_wave(const Work &work) const
       {
-        std::array<bool, n_chunks> is_positive;
-        is_positive.fill(true);
+        std::atomic<bool> is_positive{true};
         for_each_chunk(
           across[0].n + 1,
-          [&](const unsigned int chunk,
-              const unsigned int first,
-              const unsigned int end) {
+          [&](unsigned int, unsigned int p, const unsigned int end) {
             const int n = 3 * n_levels, rows = half_band + 1;
             int       info;
             Column    matrix;
-            for (unsigned int p = first; p < end; ++p)
-              for (unsigned int q = 0; q <= across[1].n; ++q)
+            for (; p < end; ++p)
+              for (unsigned int q = 0; q <= across[1].n && is_positive; ++q)
                 {
                   assemble(p, q, matrix);
                   dpbtrf_("L", &n, &half_band, matrix.data(), &rows, &info);
-                  is_positive[chunk] = is_positive[chunk] && info == 0;
-                  if (is_positive[chunk])
+                  if (info == 0)
                     work(p, q, matrix);
+                  else
+                    is_positive = false;
                 }
           });
-        return std::all_of(is_positive.begin(),
-                           is_positive.end(),
-                           [](const bool value) { return value; });
+        return is_positive;
       }
 
       // K of a pair of waves from the integrals of each direction: in

@@ -22,30 +22,18 @@ namespace Debond
 
 
 
-    /** True if the functions of the face are mirror images of each other, the
-     *  parameter of the mirrored direction @p d running backwards. */
+    /** True if the knots are mirror images of each other in direction @p d; of
+     *  several patches cells and the places of their nodes will tell. */
     bool
-    has_mirrored_functions(const NurbsSurface &face, const unsigned int d)
+    has_mirrored_knots(const NurbsSurface &face, const unsigned int d)
     {
-      if (!face.is_one_patch())
-        return true; // cells and the places of their nodes will tell
-      const std::vector<double> &knots   = face.knots(d).breakpoints();
-      const std::vector<double> &weights = face.weights();
-      for (unsigned int k = 0; k < knots.size(); ++k)
-        if (std::abs(knots[k] + knots[knots.size() - 1 - k] - 1.) > rounding)
-          return false;
-      const unsigned int n_1 = face.knots(0).n_basis_functions(),
-                         n_2 = face.knots(1).n_basis_functions();
-      for (unsigned int j = 0; j < n_2; ++j)
-        for (unsigned int i = 0; i < n_1; ++i)
-          {
-            const double own   = weights[i + n_1 * j],
-                         image = weights[d == 0 ? n_1 - 1 - i + n_1 * j :
-                                                  i + n_1 * (n_2 - 1 - j)];
-            if (std::abs(own - image) > rounding * own)
-              return false;
-          }
-      return true;
+      const std::vector<double> &knots = face.knots(d).breakpoints();
+      return std::equal(knots.begin(),
+                        knots.end(),
+                        knots.rbegin(),
+                        [](const double own, const double other) {
+                          return std::abs(own + other - 1.) <= rounding;
+                        });
     }
 
 
@@ -92,23 +80,6 @@ namespace Debond
 
 
 
-    /** Cells by their nodes, ascending. */
-    using CellsByNodes = std::map<std::vector<unsigned int>, unsigned int>;
-
-
-
-    /** The point of 2 x 2 x 2, or of 3 x 3 x 3, that is the image of q. */
-    unsigned int
-    image_of_point(const unsigned int q,
-                   const unsigned int d,
-                   const unsigned int n_along)
-    {
-      const unsigned int stride = d == 0 ? 1 : n_along,
-                         i      = q / stride % n_along;
-      return q + (n_along - 1 - i) * stride - i * stride;
-    }
-
-
     /** The image of each cell in mirror d, by those of its nodes; none if a
      * cell has none, or one of another modulus. */
     std::vector<unsigned int>
@@ -117,8 +88,8 @@ namespace Debond
                        const EnrichedCells             &cells,
                        const std::vector<unsigned int> &image)
     {
-      CellsByNodes cell_of;
-      const auto   sorted = [](std::vector<unsigned int> nodes) {
+      std::map<std::vector<unsigned int>, unsigned int> cell_of;
+      const auto sorted = [](std::vector<unsigned int> nodes) {
         std::sort(nodes.begin(), nodes.end());
         return nodes;
       };
@@ -136,11 +107,14 @@ namespace Debond
           result.push_back(found->second);
           const Eigen::ArrayXd own   = cells.stiffness_factors(cell),
                                other = cells.stiffness_factors(found->second);
-          for (unsigned int q = 0; q < own.size(); ++q)
-            if (std::abs(own[q] -
-                         other[image_of_point(q, d, cells.n_along())]) >
-                rounding * own[q])
-              return {};
+          const int n = cells.n_along(), stride = d == 0 ? 1 : n;
+          for (int q = 0; q < own.size(); ++q)
+            {
+              const int image_of_q =
+                q + (n - 1 - 2 * (q / stride % n)) * stride;
+              if (std::abs(own[q] - other[image_of_q]) > rounding * own[q])
+                return {};
+            }
         }
       return result;
     }
@@ -168,7 +142,7 @@ namespace Debond
       {
         result.image[d].assign(space.n_nodes(),
                                dealii::numbers::invalid_unsigned_int);
-        if (!has_mirrored_functions(space.surface(), d))
+        if (!has_mirrored_knots(space.surface(), d))
           return {};
       }
     for (const auto &kind : kinds)

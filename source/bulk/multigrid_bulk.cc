@@ -2,19 +2,18 @@
 #include <debond/bulk/whole_bulk.h>
 #include <debond/support/ranks.h>
 
-#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <Eigen/Geometry>
 #include <Epetra_Map.h>
-#include <Epetra_MultiVector.h>
+#include <Epetra_Vector.h>
 #include <ml_MultiLevelPreconditioner.h>
 
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 // A bulk of any size, of any modulus and on any number of ranks: step-40's
@@ -181,35 +180,24 @@ namespace Debond
       void
       multiply(const double *const x, double *const y) const override
       {
-        apply(
-          [&](const Epetra_MultiVector &in, Epetra_MultiVector &out) {
-            K.trilinos_matrix().Multiply(false, in, out);
-          },
-          x,
-          y);
+        Epetra_Vector out = view(y);
+        K.trilinos_matrix().Multiply(false, view(x), out);
       }
 
       void
       cycle(const double *const x, double *const y) const override
       {
-        apply(
-          [&](const Epetra_MultiVector &in, Epetra_MultiVector &out) {
-            multigrid->ApplyInverse(in, out);
-          },
-          x,
-          y);
+        Epetra_Vector out = view(y);
+        multigrid->ApplyInverse(view(x), out);
       }
 
     private:
-      // Epetra's vectors are views on ours.
-      template <typename Work>
-      void
-      apply(const Work &work, const double *const x, double *const y) const
+      Epetra_Vector
+      view(const double *const x) const
       {
-        const Epetra_Map   &map = K.trilinos_matrix().RowMap();
-        const Epetra_Vector in(View, map, const_cast<double *>(x));
-        Epetra_Vector       out(View, map, y);
-        work(in, out);
+        return Epetra_Vector(View,
+                             K.trilinos_matrix().RowMap(),
+                             const_cast<double *>(x));
       }
 
       // Nodes that follow others mostly have no cell, and a diagonal of their
@@ -217,41 +205,17 @@ namespace Debond
       void
       make_pattern()
       {
-        std::vector<bool> is_here(3 * mesh.n_nodes(), false);
-        const auto        see = [&](const auto dof) { is_here[dof] = true; };
-        std::for_each(owned_dofs.begin(), owned_dofs.end(), see);
-        std::vector<dealii::types::global_dof_index> dofs;
+        const dealii::types::global_dof_index n = 3 * mesh.n_nodes();
+        dealii::DynamicSparsityPattern        pattern(n);
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            dofs_of(cell, dofs);
-            std::for_each(dofs.begin(), dofs.end(), see);
-          }
-        for (const auto &line : mesh.constraints().get_lines())
-          for (const auto &entry : line.entries)
-            if (is_here[line.index])
-              see(entry.first);
-        dealii::IndexSet rows_here(is_here.size());
-        for (unsigned int dof = 0; dof < is_here.size(); ++dof)
-          if (is_here[dof])
-            rows_here.add_index(dof);
-        rows_here.compress();
-        // a guess, which deal.II multiplies by the span of the rows
-        const unsigned int row_length = std::min<std::size_t>(
-          mesh.degree() == 2 ? 375 : 81,
-          std::numeric_limits<int>::max() / is_here.size() - 1);
-        dealii::TrilinosWrappers::SparsityPattern pattern(
-          rows, rows, rows_here, Ranks::communicator(), row_length);
-        for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            dofs_of(cell, dofs);
-            mesh.constraints().add_entries_local_to_global(dofs,
-                                                           pattern,
-                                                           false);
-          }
+          mesh.constraints().add_entries_local_to_global(dofs_of(cell),
+                                                         pattern,
+                                                         false);
         for (const auto dof : owned_dofs)
           pattern.add(dof, dof);
-        pattern.compress();
-        K.reinit(pattern);
+        dealii::SparsityTools::distribute_sparsity_pattern(
+          pattern, rows, Ranks::communicator(), dealii::complete_index_set(n));
+        K.reinit(rows, rows, pattern, Ranks::communicator());
       }
 
       // Constrained degrees of freedom keep an entry of their own, so that ML
@@ -262,13 +226,10 @@ namespace Debond
         if (K.m() == 0)
           make_pattern();
         K = 0.;
-        dealii::FullMatrix<double>                   K_cell;
-        std::vector<dealii::types::global_dof_index> dofs;
         for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
-          {
-            stiffness_of(cell, v, K_cell, dofs);
-            mesh.constraints().distribute_local_to_global(K_cell, dofs, K);
-          }
+          mesh.constraints().distribute_local_to_global(stiffness_of(cell, v),
+                                                        dofs_of(cell),
+                                                        K);
         K.compress(dealii::VectorOperation::add);
         for (const auto dof : owned_dofs)
           if (mesh.is_tied(dof / 3) && K.diag_element(dof) == 0.)

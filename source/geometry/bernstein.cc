@@ -168,19 +168,8 @@ namespace Debond
     assert(span < n_spans());
     const double left = breaks[span], scale = 1. / (breaks[span + 1] - left);
     const BernsteinValues b = bernstein(p, (u - left) * scale);
-
-    // What lies outside the (p+1) x (p+1) block is zero, so the loop can have a
-    // length that the compiler knows.
+    // what lies outside the (p+1) x (p+1) block is zero
     const Eigen::Matrix3d &C = extraction[span];
-    BernsteinValues        N;
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        const double c0 = C(i, 0), c1 = C(i, 1), c2 = C(i, 2);
-        N.B[i]  = c0 * b.B[0] + c1 * b.B[1] + c2 * b.B[2];
-        N.dB[i] = (c0 * b.dB[0] + c1 * b.dB[1] + c2 * b.dB[2]) * scale;
-        N.ddB[i] =
-          (c0 * b.ddB[0] + c1 * b.ddB[1] + c2 * b.ddB[2]) * (scale * scale);
-      }
-    return N;
+    return {C * b.B, scale * (C * b.dB), scale * scale * (C * b.ddB)};
   }
 } // namespace Debond

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-// Faces whose elements follow the rim of a disk.
+// Disks, and faces whose elements follow the rim of one.
 namespace Debond
 {
   namespace
@@ -70,7 +70,33 @@ namespace Debond
 
 
 
+    /** Weight of the middle of a quarter circle; its control point is where the
+     *  tangents of its ends meet. */
     const double s = std::sqrt(0.5);
+
+    Outline
+    circle(const double R)
+    {
+      return {R * s, R * s, R / s, R / s};
+    }
+
+
+
+    /** The patch within an outline. */
+    NurbsSurface
+    patch_within(const Outline             &outline,
+                 const double               weight_of_middle,
+                 const std::vector<double> &breaks)
+    {
+      const auto &[a, b] = std::tie(outline.corner, outline.middle);
+      return patch_of(
+        {{a[3], b[3], a[0], b[2], {0., 0.}, b[0], a[2], b[1], a[1]}},
+        {{1, s, 1, s, weight_of_middle, s, 1, s, 1}},
+        breaks,
+        breaks);
+    }
+
+
 
     /** Elements of fitted faces shrink towards the rim with this exponent, from
      *  both sides: what the pressure at the rim of stiff interfaces needs. */
@@ -120,20 +146,15 @@ namespace Debond
       // corners of the core at 0.55 R, its sides bulged by 1.4: half way
       // between straight lines and arcs of a circle. Other values hardly change
       // results.
-      const double        c = 0.55 * R * s, m = 1.4 * c;
-      const Outline       core(c, c, m, m), rim(R * s, R * s, R / s, R / s);
+      const double        c = 0.55 * R * s, m   = 1.4 * c;
+      const Outline       core(c, c, m, m), rim = circle(R);
       std::vector<double> around = graded_breaks(n_around / 4, 1.),
                           inside = graded_breaks(n_rings, rim_exponent);
       for (double &x : inside)
         x = 1. - x;
       std::reverse(inside.begin(), inside.end());
 
-      const auto &[a, b] = std::tie(core.corner, core.middle);
-      std::vector<NurbsSurface> patches{
-        patch_of({{a[3], b[3], a[0], b[2], {0., 0.}, b[0], a[2], b[1], a[1]}},
-                 {{1, s, 1, s, 0.5, s, 1, s, 1}},
-                 around,
-                 around)};
+      std::vector<NurbsSurface> patches{patch_within(core, 0.5, around)};
       add_ring(core, rim, inside, around, patches);
       if (outside)
         add_ring(rim,
@@ -144,6 +165,15 @@ namespace Debond
       return NurbsSurface::joined(patches);
     }
   } // namespace
+
+
+
+  NurbsSurface
+  NurbsSurface::disk(const double R, const unsigned int n)
+  {
+    assert(R > 0. && n > 0);
+    return patch_within(circle(R), 1., graded_breaks(n, 1.));
+  }
 
 
 

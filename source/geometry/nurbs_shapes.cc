@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <utility>
 
-// Refinement, and the faces that are made by it.
+// Refinement by knots, caps and rectangles.
 namespace Debond
 {
   namespace
@@ -76,41 +75,6 @@ namespace Debond
             share_a / w * points.col(a) + share_b / w * points.col(b);
         }
     return NurbsSurface(new_knots[0], new_knots[1], new_points, new_weights);
-  }
-
-
-
-  NurbsSurface
-  NurbsSurface::refine_uniformly(const unsigned int n1,
-                                 const unsigned int n2) const
-  {
-    assert(n_elements() == 1 && n1 > 0 && n2 > 0);
-
-    NurbsSurface result = *this;
-    for (const auto &[direction, n] : {std::pair(0U, n1), std::pair(1U, n2)})
-      for (unsigned int i = 1; i < n; ++i)
-        result = result.insert_knot(direction, static_cast<double>(i) / n);
-    return result;
-  }
-
-
-
-  NurbsSurface
-  NurbsSurface::disk(const double R, const unsigned int n)
-  {
-    assert(R > 0. && n > 0);
-
-    // Each edge is a quarter circle: middle weight cos(45 degrees), middle
-    // control point where the tangents of its ends meet.
-    const double s = std::sqrt(0.5), c = R * s, t = R / s;
-    ControlNet   net(3, 9);
-    net.row(0) << -c, 0, c, -t, 0, t, -c, 0, c;
-    net.row(1) << -c, -t, -c, 0, 0, 0, c, t, c;
-    net.row(2).setZero();
-    const std::vector<double> w = {1, s, 1, s, 1, s, 1, s, 1};
-
-    const KnotVector one_span = KnotVector::graded(2, 1);
-    return NurbsSurface(one_span, one_span, net, w).refine_uniformly(n, n);
   }
 
 
@@ -187,22 +151,6 @@ namespace Debond
                                                (v - 0.5) * ly,
                                                0.);
                       });
-  }
-
-
-
-  NurbsSurface
-  NurbsSurface::rectangle(const double       lx,
-                          const double       ly,
-                          const unsigned int n1,
-                          const unsigned int n2,
-                          const unsigned int degree,
-                          const double       grading)
-  {
-    return rectangle(lx,
-                     ly,
-                     KnotVector::graded(degree, n1, grading),
-                     KnotVector::graded(degree, n2, grading));
   }
 
 

@@ -22,10 +22,9 @@ namespace Debond
     , points(control_points)
     , weight(weights.empty() ? std::vector<double>(control_points.cols(), 1.) :
                                weights)
-    , is_rational(std::any_of(weight.begin(),
-                              weight.end(),
-                              [](const double w) { return w != 1.; }))
-    , n_in_row(std::ceil(std::sqrt(double(control_points_of_faces.size()))))
+    , is_rational(std::any_of(weight.begin(), weight.end(), [](const double w) {
+      return w != 1.;
+    }))
   {
     for (const auto &each : control_points_of_faces)
       {
@@ -122,8 +121,7 @@ namespace Debond
     result.points.resize(3, weights.size());
     for (unsigned int A = 0; A < weights.size(); ++A)
       result.points.col(A) = places[A];
-    result.weight   = weights;
-    result.n_in_row = std::ceil(std::sqrt(double(result.faces.size())));
+    result.weight = weights;
     result.faces_at.resize(places_of_corners.size());
     result.find_neighbours();
     return result;
@@ -170,6 +168,7 @@ namespace Debond
   void
   NurbsSurface::find_neighbours()
   {
+    n_in_row = std::ceil(std::sqrt(double(faces.size())));
     // by both of their corners: a face and its side
     std::map<std::pair<unsigned int, unsigned int>, std::pair<int, int>> sides;
     for (int f = 0; f < int(faces.size()); ++f)

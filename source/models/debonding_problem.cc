@@ -5,6 +5,7 @@
 #include <debond/models/simulation.h>
 #include <debond/output/checkpoint.h>
 #include <debond/output/field_output.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -93,7 +94,7 @@ namespace Debond
            << " after condensation on the contact surfaces";
       std::vector<std::string> lines{text};
       if (scene.bone.modulus)
-        lines.push_back(scene.bone.modulus_in_words());
+        lines.push_back(scene.bone.modulus->in_words());
       if (scene.bone.element == ElementKind::spline ||
           scene.bulk_solver() == BulkSolver::multigrid)
         lines.push_back(scene.bulk_solver_in_words());

@@ -26,28 +26,6 @@ namespace Debond
 
 
 
-  std::array<std::array<double, 3>, 2>
-  BodyParameters::corners_of_bone() const
-  {
-    if (!mesh)
-      return {{{{-0.5 * size[0], -0.5 * size[1], -size[2]}},
-               {{0.5 * size[0], 0.5 * size[1], 0.}}}};
-    const auto &[lower, upper] = mesh->box.get_boundary_points();
-    return {
-      {{{lower[0], lower[1], lower[2]}}, {{upper[0], upper[1], upper[2]}}}};
-  }
-
-
-
-  const char *
-  name_of(const SleeveEnds ends)
-  {
-    static const char *const names[]{"free", "slides z", "axial", "held"};
-    return names[static_cast<unsigned int>(ends)];
-  }
-
-
-
   BodyParameters
   BodyParameters::default_implant()
   {
@@ -173,7 +151,12 @@ namespace Debond
               "`auto': that of the implant.");
     table.add(
       "Ends",
-      ends,
+      ends.empty()       ? "free" :
+      ends == "slides z" ? "slide" :
+                           ends,
+      [this](const std::string &text) {
+        ends = text == "free" ? "" : text == "slide" ? "slides z" : text;
+      },
       Allowed::choice("free | slide | axial | held"),
       "How top and bottom of a sleeve, or the top of a cavity, are held. "
       "`free': not at all. `slide': they do not move along the axis. "
@@ -316,15 +299,11 @@ namespace Debond
                   what + " Not used by a rigid body.");
         return;
       }
-    // what names no place, and nothing in a formula, is a number, maybe with a
-    // mistake
+    // what names no place is a number, maybe with a mistake
     static const std::regex place(
-      "(^|[^A-Za-z_])(x|y|z|[Gg][Rr][EeAa][Yy])([^A-Za-z_]|$)"),
-      name("(^|[^A-Za-z_0-9.])[A-Za-z_]"), formula("[-+*/^(<>]");
+      "(^|[^A-Za-z_])(x|y|z|[Gg][Rr][EeAa][Yy])([^A-Za-z_]|$)");
     const auto is_expression = [](const std::string &text) {
-      return std::regex_search(text, place) ||
-             (std::regex_search(text, name) &&
-              std::regex_search(text, formula));
+      return std::regex_search(text, place);
     };
     AllowedValues number_or_expression = number;
     number_or_expression.test = [number, is_expression](const auto &text) {
@@ -397,15 +376,16 @@ namespace Debond
         else
           read_entry(voxel_corner, corner);
       }
-    modulus            = std::make_shared<ModulusField>(modulus_expression,
-                                             std::move(image),
-                                             corner,
-                                             radius);
-    const auto corners = corners_of_bone();
-    const auto range   = modulus->range(Eigen::Vector3d(corners[0].data()),
-                                      Eigen::Vector3d(corners[1].data()));
-    young_modulus      = range.mean;
-    smallest_modulus   = range.smallest;
+    const Eigen::Vector3d half(0.5 * size[0], 0.5 * size[1], 0.);
+    ModulusField::Box bone{{-half - size[2] * Eigen::Vector3d::UnitZ(), half}};
+    for (unsigned int d = 0; mesh && d < 3; ++d)
+      {
+        bone[0][d] = mesh->box.lower_bound(d);
+        bone[1][d] = mesh->box.upper_bound(d);
+      }
+    modulus = std::make_shared<ModulusField>(
+      modulus_expression, std::move(image), corner, radius, bone);
+    young_modulus = modulus->range().mean;
   }
 
 
@@ -413,21 +393,7 @@ namespace Debond
   double
   BodyParameters::softest_modulus() const
   {
-    return modulus ? smallest_modulus : young_modulus;
-  }
-
-
-
-  std::string
-  BodyParameters::modulus_in_words() const
-  {
-    const auto corners = corners_of_bone();
-    const auto range   = modulus->range(Eigen::Vector3d(corners[0].data()),
-                                      Eigen::Vector3d(corners[1].data()));
-    return modulus->voxels_text(corners[0], corners[1]) +
-           "Young's modulus of the bone: " + to_text(range.smallest, 3) +
-           " to " + to_text(range.largest, 3) + " MPa, mean " +
-           to_text(range.mean, 3);
+    return modulus ? modulus->range().smallest : young_modulus;
   }
 
 

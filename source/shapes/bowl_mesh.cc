@@ -1,14 +1,11 @@
+#include <debond/shapes/block_mesh.h>
 #include <debond/shapes/bowl_mesh.h>
-#include <debond/shapes/cell_collector.h>
 
 #include <cmath>
 
 namespace Debond
 {
-  namespace
-  {
-    using Point = dealii::Point<3>;
-  } // namespace
+  using Point = dealii::Point<3>;
 
 
 
@@ -49,164 +46,86 @@ namespace Debond
 
 
 
-  double
-  BowlFace::weight(const Point &p, const Point &q, const bool is_at_rim) const
-  {
-    const Point origin(0., 0., is_at_rim ? 0. : centre);
-    return ((p - origin) + (q - origin)).norm() /
-           ((p - origin).norm() + (q - origin).norm());
-  }
-
-
-
   namespace
   {
-    /** Keys: halves of layers from the inner to the outer face, and the place
-     *  on the surface of half a cube, or in it where the core is. */
-    class MeshOfBowl : public CellCollector
-    {
-    public:
-      explicit MeshOfBowl(const Bowl &bowl);
-
-    private:
-      Point
-      on_face(const BowlFace &face, const Key &key) const;
-      Point
-      position(const Key &key) const override;
-      void
-      add_layers(const Key                &first,
-                 const std::array<int, 2> &axes,
-                 const std::string        &opposite);
-      void
-      add_core();
-
-      const Bowl        &bowl;
-      const BowlFace    &sphere;       ///< the contact face
-      const unsigned int across, deep; ///< cells of half the cube
-    };
-
-
-
-    MeshOfBowl::MeshOfBowl(const Bowl &bowl)
-      : bowl(bowl)
-      , sphere(bowl.contact_is_inner ? bowl.inner : bowl.outer)
-      , across(bowl.cells[0] / 4)
-      , deep(bowl.cells[2])
-    {
-      for (unsigned int i = 0; i < 2 * across; i += 2)
-        {
-          for (unsigned int j = 0; j < 2 * across; j += 2)
-            add_layers({{0, i, j, 0}}, {{1, 2}}, bowl.bottom);
-          for (unsigned int k = 0; k < 2 * deep; k += 2)
-            for (const unsigned int end : {0U, 2 * across})
-              {
-                add_layers({{0, end, i, k}}, {{2, 3}}, bowl.sides[0]);
-                add_layers({{0, i, end, k}}, {{1, 3}}, bowl.sides[1]);
-              }
-        }
-      if (bowl.is_solid)
-        add_core();
-      stored.sphere_centre = Point(0., 0., sphere.centre);
-      stored.sphere_radius = sphere.radius;
-    }
-
-
-
     // Nodes in the middle of edges and faces are between the corners of these.
     Point
-    MeshOfBowl::on_face(const BowlFace &face, const Key &key) const
+    on_face(const Bowl &bowl, const BowlFace &face, const Block::Place &place)
     {
+      const double across = bowl.cells[0] / 4, deep = bowl.cells[2];
       Point        sum;
       unsigned int n = 0;
-      for (const unsigned int i : {key[1] / 2, (key[1] + 1) / 2})
-        for (const unsigned int j : {key[2] / 2, (key[2] + 1) / 2})
-          for (const unsigned int k : {key[3] / 2, (key[3] + 1) / 2})
+      for (const unsigned int i : {place[0] / 2, (place[0] + 1) / 2})
+        for (const unsigned int j : {place[1] / 2, (place[1] + 1) / 2})
+          for (const unsigned int k : {place[2] / 2, (place[2] + 1) / 2})
             {
-              sum += face.at({2. * i / across - 1.,
-                              2. * j / across - 1.,
-                              double(k) / deep - 1.});
+              sum += face.at(
+                {2. * i / across - 1., 2. * j / across - 1., k / deep - 1.});
               ++n;
             }
-      return face.between(sum / n, key[3] == 2 * deep);
+      return face.between(sum / n, place[2] == 2 * deep);
     }
 
 
 
     Point
-    MeshOfBowl::position(const Key &key) const
+    between_faces(const Bowl         &bowl,
+                  const unsigned int  layer,
+                  const Block::Place &place)
     {
-      const Point  start = on_face(bowl.inner, key);
+      const Point  start = on_face(bowl, bowl.inner, place);
       const double part =
-        part_of_way(key[0], bowl.cells[1], bowl.contact_is_inner, bowl.grading);
-      return part == 0. ? start :
-                          start + part * (on_face(bowl.outer, key) - start);
-    }
-
-
-
-    // Between both faces, over a cell of theirs that spans two coordinates of
-    // keys.
-    void
-    MeshOfBowl::add_layers(const Key                &first,
-                           const std::array<int, 2> &axes,
-                           const std::string        &opposite)
-    {
-      const unsigned int n         = bowl.cells[1];
-      const bool         is_at_rim = axes[1] == 3 && first[3] == 2 * deep - 2;
-      for (unsigned int layer = 0; layer < n; ++layer)
-        {
-          add({{2 * layer, 0, 0}}, [&](const Place &place) {
-            Key key = first;
-            key[0]  = place[0];
-            key[axes[0]] += place[1];
-            key[axes[1]] += place[2];
-            return key;
-          });
-          if (is_at_rim)
-            name(bowl.rim, {{4, 5, 6, 7}});
-          for (const unsigned int c : {0U, 1U}) // the inner and the outer face
-            if (c == 0 ? layer == 0 && !bowl.is_solid : layer == n - 1)
-              {
-                const bool is_contact = bowl.contact_is_inner == (c == 0);
-                name(is_contact ? "contact" : opposite,
-                     {{c, c + 2, c + 4, c + 6}});
-                for (const auto &[p, q] : {std::pair(c, c + 2),
-                                           std::pair(c, c + 4),
-                                           std::pair(c + 2, c + 6),
-                                           std::pair(c + 4, c + 6)})
-                  if (is_contact)
-                    add_arc(p,
-                            q,
-                            sphere.weight(corner(p),
-                                          corner(q),
-                                          is_at_rim && p == c + 4));
-              }
-        }
-    }
-
-
-
-    void
-    MeshOfBowl::add_core()
-    {
-      for (unsigned int i = 0; i < 2 * across; i += 2)
-        for (unsigned int j = 0; j < 2 * across; j += 2)
-          for (unsigned int k = 0; k < 2 * deep; k += 2)
-            {
-              add({{i, j, k}}, [](const Place &place) {
-                return Key{{0, place[0], place[1], place[2]}};
-              });
-              if (k == 2 * deep - 2)
-                name(bowl.rim, {{4, 5, 6, 7}});
-            }
+        part_of_way(layer, bowl.cells[1], bowl.contact_is_inner, bowl.grading);
+      return part == 0. ?
+               start :
+               start + part * (on_face(bowl, bowl.outer, place) - start);
     }
   } // namespace
 
 
 
+  // Layers from the inner to the outer face over the bottom and the four sides
+  // of half a cube, and the core, if there is one.
   StoredMesh
   mesh_of_bowl(const Bowl &bowl)
   {
-    return std::move(MeshOfBowl(bowl).stored);
+    using Place               = Block::Place;
+    const unsigned int across = bowl.cells[0] / 4, deep = bowl.cells[2];
+    std::vector<Block> blocks;
+    const auto         add_layers = [&](const Place       &first,
+                                const unsigned int axis_1,
+                                const unsigned int axis_2,
+                                const std::string &opposite) {
+      const std::string inner = bowl.is_solid         ? "" :
+                                        bowl.contact_is_inner ? "contact" :
+                                                                opposite,
+                        outer = bowl.contact_is_inner ? opposite : "contact",
+                        rim = axis_2 == 2 ? bowl.rim : "";
+      blocks.push_back({{{bowl.cells[1], across, axis_2 == 2 ? deep : across}},
+                        [=, &bowl](const Place &place) {
+                          Place on_cube = first;
+                          on_cube[axis_1] += place[1];
+                          on_cube[axis_2] += place[2];
+                          return between_faces(bowl, place[0], on_cube);
+                        },
+                        {{inner, outer, "", "", "", rim}}});
+    };
+    add_layers({{0, 0, 0}}, 0, 1, bowl.bottom);
+    for (const unsigned int end : {0U, 2 * across})
+      {
+        add_layers({{end, 0, 0}}, 1, 2, bowl.sides[0]);
+        add_layers({{0, end, 0}}, 0, 2, bowl.sides[1]);
+      }
+    if (bowl.is_solid)
+      blocks.push_back(
+        {{{across, across, deep}},
+         [&](const Place &place) { return on_face(bowl, bowl.inner, place); },
+         {{"", "", "", "", "", bowl.rim}}});
+    StoredMesh      mesh   = mesh_of_blocks(blocks);
+    const BowlFace &sphere = bowl.contact_is_inner ? bowl.inner : bowl.outer;
+    mesh.sphere_centre     = Point(0., 0., sphere.centre);
+    mesh.sphere_radius     = sphere.radius;
+    mesh.has_arcs          = true;
+    return mesh;
   }
 } // namespace Debond

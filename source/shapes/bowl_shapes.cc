@@ -127,7 +127,7 @@ namespace Debond
       bowl.outer.box        = body.size;
       bowl.inner.centre     = bowl.outer.centre =
         *implant.geometry().centre_of_sphere;
-      bowl.rim    = name_of(body.ends);
+      bowl.rim    = body.ends;
       bowl.bottom = "held";
       if (is_shell(body))
         bowl.sides = {{"held", "held"}};

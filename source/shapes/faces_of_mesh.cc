@@ -51,29 +51,26 @@ namespace Debond
   {
     using FaceWeights = Eigen::Matrix<double, 9, 1>;
 
-    /** Weights of the 3 x 3 control points of a face: at corners 1, in the
-     *  middle of edges that are arcs as the mesh says, in the middle of the
-     * face their geometric mean, that of a product where opposite edges are
-     * alike.
-     */
+    /** Edges among the 3 x 3 nodes of a face. */
+    constexpr int edges[][3] = {{0, 1, 2}, {6, 7, 8}, {0, 3, 6}, {2, 5, 8}};
+
+
+
+    /** Weights of the 3 x 3 control points of a face with these nodes, whose
+     *  edges are arcs: at corners 1, in the middle of edges the cosine of half
+     *  the angle, whose half has the tangent t, in the middle of the face their
+     *  geometric mean, that of a product where opposite edges are alike. */
     FaceWeights
-    weights_of(const BodyMesh                                       &mesh,
-               const dealii::Triangulation<3>::active_cell_iterator &cell,
-               const ContactFace                                    &face)
+    weights_of(const Eigen::Matrix3Xd &x)
     {
-      FaceWeights        w     = FaceWeights::Ones();
-      const unsigned int first = face.number % 2 << face.across();
-      for (const unsigned int d : {0, 1})
-        for (const unsigned int side : {0, 1})
-          {
-            const auto found =
-              mesh.weights.find(vertices_of({0, 1}, [&](const unsigned int c) {
-                return cell->vertex_index(first + (c << face.axes[d]) +
-                                          (side << face.axes[1 - d]));
-              }));
-            if (found != mesh.weights.end())
-              w[d == 0 ? 1 + 6 * side : 3 + 2 * side] = found->second;
-          }
+      FaceWeights w = FaceWeights::Ones();
+      for (const auto &[first, middle, last] : edges)
+        {
+          const double t =
+            (2. * x.col(middle) - x.col(first) - x.col(last)).norm() /
+            (x.col(last) - x.col(first)).norm();
+          w[middle] = (1. - t * t) / (1. + t * t);
+        }
       w[4] = std::sqrt(w[1] * w[7] * w[3] * w[5]);
       return w;
     }
@@ -85,7 +82,6 @@ namespace Debond
     void
     interpolate(Eigen::Matrix3Xd &x, const FaceWeights &w)
     {
-      constexpr int edges[][3] = {{0, 1, 2}, {6, 7, 8}, {0, 3, 6}, {2, 5, 8}};
       for (const auto &[first, middle, last] : edges)
         x.col(middle) = ((1. + w[middle]) * x.col(middle) -
                          0.5 * (x.col(first) + x.col(last))) /
@@ -194,7 +190,8 @@ namespace Debond
         FaceWeights w = FaceWeights::Ones();
         if (degree == 2)
           {
-            w = weights_of(mesh, cell, face);
+            if (mesh.has_arcs)
+              w = weights_of(x);
             interpolate(x, w);
             if (mesh.sphere_radius > 0.)
               fit_to_sphere(x, w, mesh);

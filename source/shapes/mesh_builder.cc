@@ -24,13 +24,12 @@ namespace Debond
     check_kinds();
     place_points();
     number_vertices();
-    check_shapes();
     check_coincident_vertices();
     find_faces();
     name_faces();
     check_pieces();
-    check_contact_face();
     build();
+    check_contact_face();
   }
 
 
@@ -90,6 +89,10 @@ namespace Debond
                                   corners[e].end()))
                   x[p] += x[e] * (own.size() == 4 ? 0.5 : 0.25);
             }
+        if (is_tangled(x))
+          refuse("the hexahedron " + at_place(x[26]) +
+                 " is tangled or flat (the determinant of the Jacobian changes "
+                 "its sign)");
       }
   }
 
@@ -112,10 +115,6 @@ namespace Debond
               }
             cells.back().vertices[c] = v;
           }
-        const Vertices all = vertices(cell, 26);
-        if (std::adjacent_find(all.begin(), all.end()) != all.end())
-          refuse("the hexahedron " + at_place(points[cell][26]) +
-                 " has a corner twice: expected eight corners");
       }
   }
 
@@ -146,14 +145,6 @@ namespace Debond
     }
 
 
-    /** "1 face", "3 faces". */
-    std::string
-    counted(const std::size_t  n,
-            const std::string &one,
-            const std::string &more)
-    {
-      return std::to_string(n) + " " + (n == 1 ? one : more);
-    }
   } // namespace
 
 
@@ -181,46 +172,6 @@ namespace Debond
 
 
   void
-  MeshBuilder::check_middles(const Points &x) const
-  {
-    for (unsigned int e = 8; e < 20; ++e)
-      {
-        const Point &a = x[corners_of_places()[e][0]],
-                    &b = x[corners_of_places()[e][1]];
-        if (x[e].distance(a + 0.5 * (b - a)) > 0.5 * a.distance(b))
-          refuse("the node in the middle of the edge " +
-                 at_place(a + 0.5 * (b - a)) + " is far from it, " +
-                 at_place(x[e]) + ": expected half of its length at most");
-      }
-  }
-
-
-
-  void
-  MeshBuilder::check_shapes() const
-  {
-    unsigned int  n_tangled = 0;
-    const Points *first     = nullptr;
-    for (const Points &x : points)
-      {
-        if (mesh->order == 2)
-          check_middles(x);
-        if (is_tangled(x))
-          {
-            ++n_tangled;
-            first = first ? first : &x;
-          }
-      }
-    if (first)
-      refuse(counted(n_tangled, "hexahedron is", "hexahedra are") +
-             " tangled or flat (the determinant of the Jacobian changes "
-             "its sign), the first one " +
-             at_place((*first)[26]));
-  }
-
-
-
-  void
   MeshBuilder::check_coincident_vertices()
   {
     shortest_edge = points[0][0].distance(points[0][1]);
@@ -237,8 +188,6 @@ namespace Debond
       sorted.emplace_back(vertex_points[v] * along, v);
     std::sort(sorted.begin(), sorted.end());
     const double tolerance = 1e-3 * shortest_edge;
-    unsigned int n         = 0;
-    const Point *first     = nullptr;
     for (std::size_t i = 0; i < sorted.size(); ++i)
       for (std::size_t j = i + 1;
            j < sorted.size() && sorted[j].first < sorted[i].first + tolerance;
@@ -246,15 +195,9 @@ namespace Debond
         {
           const Point &a = vertex_points[sorted[i].second];
           if (a.distance(vertex_points[sorted[j].second]) < tolerance)
-            {
-              ++n;
-              first = first ? first : &a;
-            }
+            refuse("two nodes of hexahedra coincide, " + at_place(a) +
+                   ": merge duplicate nodes");
         }
-    if (first)
-      refuse("in " + counted(n, "place", "places") +
-             " two nodes of hexahedra coincide, " + at_place(*first) +
-             (n > 1 ? " for one" : "") + ": merge duplicate nodes");
   }
 
 
@@ -274,10 +217,7 @@ namespace Debond
                      at_place(x) + " and " + at_place(given.first->second) +
                      ": merge duplicate nodes");
           }
-    for (const auto &[ends, weight] : stored.arcs)
-      mesh->weights[vertices_of({0, 1}, [&ends = ends, this](const auto c) {
-        return vertex[ends[c]];
-      })] = weight;
+    mesh->has_arcs      = stored.has_arcs;
     mesh->sphere_centre = stored.sphere_centre;
     mesh->sphere_radius = stored.sphere_radius;
     std::vector<Point> on_face;

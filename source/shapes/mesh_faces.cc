@@ -1,3 +1,4 @@
+#include <debond/shapes/faces_of_mesh.h>
 #include <debond/shapes/mesh_builder.h>
 
 #include <boost/algorithm/string/case_conv.hpp>
@@ -141,40 +142,28 @@ namespace Debond
   void
   MeshBuilder::check_contact_face() const
   {
-    std::map<Vertices, std::vector<unsigned int>> faces_at_edge;
-    unsigned int                                  n_faces = 0;
-    for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    std::map<unsigned int, std::vector<unsigned int>> faces_at_edge;
+    const auto at_face = cells_at_contact_face(mesh->triangulation);
+    Pieces     pieces(at_face.size());
+    for (unsigned int i = 0; i < at_face.size(); ++i)
       {
-        unsigned int n_of_cell = 0;
-        for (unsigned int p = 20; p < 26; ++p)
-          if (faces.at(vertices(cell, p)).id == Boundary::contact)
-            {
-              ++n_of_cell;
-              for (unsigned int e = 8; e < 20; ++e)
-                if (std::includes(corners_of_places()[p].begin(),
-                                  corners_of_places()[p].end(),
-                                  corners_of_places()[e].begin(),
-                                  corners_of_places()[e].end()))
-                  faces_at_edge[vertices(cell, e)].push_back(n_faces);
-              ++n_faces;
-            }
-        if (n_of_cell > 1)
-          refuse("the hexahedron " + at_place(points[cell][26]) + " has " +
-                 std::to_string(n_of_cell) +
-                 " faces named contact: expected one at most; cut it, or "
-                 "name one of them otherwise");
+        const auto &[cell, number] = at_face[i];
+        if (i > 0 && cell == at_face[i - 1].first)
+          refuse("the hexahedron " + at_place(cell->center()) +
+                 " has several faces named contact: expected one at most; cut "
+                 "it, or name one of them otherwise");
+        for (const unsigned int l : cell->face(number)->line_indices())
+          {
+            const auto line   = cell->face(number)->line(l);
+            auto      &beside = faces_at_edge[line->index()];
+            beside.push_back(i);
+            if (beside.size() > 2)
+              refuse("more than two faces named contact meet at the edge " +
+                     at_place(line->center()) + ": expected a surface");
+            pieces.union_set(i, beside.front());
+          }
       }
-    Pieces pieces(n_faces);
-    for (const auto &[edge, beside] : faces_at_edge)
-      {
-        if (beside.size() > 2)
-          refuse(
-            "more than two faces named contact meet at the edge " +
-            at_place(0.5 * (vertex_points[edge[0]] + vertex_points[edge[1]])) +
-            ": expected a surface");
-        pieces.union_set(beside.front(), beside.back());
-      }
-    const unsigned int n = number_of(pieces, n_faces);
+    const unsigned int n = number_of(pieces, at_face.size());
     if (n > 1)
       refuse("its contact face is in " + std::to_string(n) +
              " pieces that have no edge in common: expected one");

@@ -60,7 +60,7 @@ namespace Debond
 
 
     std::string
-    in_words(const Eigen::Vector3d &X)
+    place_text(const Eigen::Vector3d &X)
     {
       return "x = " + to_text(X[0], 6) + " mm, y = " + to_text(X[1], 6) +
              " mm, z = " + to_text(X[2], 6) + " mm";
@@ -69,17 +69,29 @@ namespace Debond
 
 
     std::string
-    box_text(const std::array<double, 3> &lower,
-             const std::array<double, 3> &upper)
+    box_text(const ModulusField::Box &box)
     {
-      const auto corner = [](const std::array<double, 3> &X) {
+      const auto corner = [](const Eigen::Vector3d &X) {
         std::string text;
         for (unsigned int d = 0; d < 3; ++d)
           text += (d == 0 ? "(" : ", ") +
                   to_text(std::abs(X[d]) < 1e-9 ? 0. : X[d], 6); // no 1e-16
         return text + ")";
       };
-      return "from " + corner(lower) + " to " + corner(upper) + " mm";
+      return "from " + corner(box[0]) + " to " + corner(box[1]) + " mm";
+    }
+
+
+
+    /** Of voxels with this lowest corner; empty without any. */
+    ModulusField::Box
+    box_of(const VoxelImage *const image, const std::array<double, 3> &corner)
+    {
+      ModulusField::Box box{
+        {Eigen::Vector3d(corner.data()), Eigen::Vector3d(corner.data())}};
+      for (unsigned int d = 0; image && d < 3; ++d)
+        box[1][d] += image->length(d);
+      return box;
     }
 
 
@@ -99,10 +111,12 @@ namespace Debond
   ModulusField::ModulusField(const std::string                &expression,
                              std::shared_ptr<const VoxelImage> voxels,
                              const std::array<double, 3>      &corner,
-                             const double                      radius)
+                             const double                      radius,
+                             const Box                        &bone)
     : text(expression)
     , image(std::move(voxels))
-    , corner(corner)
+    , bone(bone)
+    , of_voxels(box_of(image.get(), corner))
     , layered(!image && can_be_parsed("z", expression, radius))
     , modulus(parsed(image ? "x,y,z,grey" : "x,y,z", expression, radius))
   {
@@ -111,6 +125,19 @@ namespace Debond
                        "Young modulus = " + expression +
                          " does not say what the grey values of these voxels "
                          "mean: expected an expression of grey");
+    constexpr unsigned int n    = 20;
+    const Eigen::Vector3d  part = (bone[1] - bone[0]) / n;
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const double value =
+              at(bone[0] +
+                 part.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5)));
+            range_in_bone.smallest = std::min(range_in_bone.smallest, value);
+            range_in_bone.largest  = std::max(range_in_bone.largest, value);
+            range_in_bone.mean += value / (n * n * n);
+          }
   }
 
 
@@ -125,11 +152,11 @@ namespace Debond
         for (unsigned int d = 0; d < 3; ++d)
           {
             // rounding may leave the grid at its sides
-            const double i = (X[d] - corner[d]) / image->spacing[d];
+            const double i = (X[d] - of_voxels[0][d]) / image->spacing[d];
             if (!(i >= -1e-6 && i <= image->n[d] + 1e-6))
               throw EntryError("Bone / Voxel file",
-                               "there is no voxel at " + in_words(X) +
-                                 ": they are " + extent_text() +
+                               "there is no voxel at " + place_text(X) +
+                                 ": they are " + box_text(of_voxels) +
                                  ", expected all over the bone (Bone / Size, "
                                  "Voxel corner)");
             index[d] = std::clamp(static_cast<int>(std::floor(i)),
@@ -147,7 +174,7 @@ namespace Debond
         entry,
         (std::isfinite(value) ? "it is " + to_text(value, 6) + " MPa" :
                                 std::string("it has no finite value")) +
-          " at " + in_words(X) +
+          " at " + place_text(X) +
           (image ? ", where grey = " + to_text(variables.back(), 6) : "") +
           ": expected 1e-6 to 1e12 MPa" +
           (!std::isfinite(value) ? remark_on_no_value :
@@ -186,51 +213,21 @@ namespace Debond
 
 
 
-  ModulusField::Range
-  ModulusField::range(const Eigen::Vector3d &lower,
-                      const Eigen::Vector3d &upper) const
-  {
-    constexpr unsigned int n    = 20;
-    const Eigen::Vector3d  part = (upper - lower) / n;
-    Range                  range{1e300, 0., 0.};
-    for (unsigned int k = 0; k < n; ++k)
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const double value =
-              at(lower +
-                 part.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5)));
-            range.smallest = std::min(range.smallest, value);
-            range.largest  = std::max(range.largest, value);
-            range.mean += value / (n * n * n);
-          }
-    return range;
-  }
-
-
-
   std::string
-  ModulusField::extent_text() const
+  ModulusField::in_words() const
   {
-    std::array<double, 3> end;
-    for (unsigned int d = 0; d < 3; ++d)
-      end[d] = corner[d] + image->length(d);
-    return box_text(corner, end);
-  }
-
-
-
-  std::string
-  ModulusField::voxels_text(const std::array<double, 3> &bone_lower,
-                            const std::array<double, 3> &bone_upper) const
-  {
+    const std::string range =
+      "Young's modulus of the bone: " + to_text(range_in_bone.smallest, 3) +
+      " to " + to_text(range_in_bone.largest, 3) + " MPa, mean " +
+      to_text(range_in_bone.mean, 3);
     if (!image)
-      return "";
+      return range;
     const auto [least, largest] =
       std::minmax_element(image->grey.begin(), image->grey.end());
     return grid_text(image->n) + " voxels of " + grid_text(image->spacing) +
-           " mm " + extent_text() + ", grey values from " + to_text(*least, 6) +
-           " to " + to_text(*largest, 6) + "\nThe bone is " +
-           box_text(bone_lower, bone_upper) + "; " + image->order + "\n";
+           " mm " + box_text(of_voxels) + ", grey values from " +
+           to_text(*least, 6) + " to " + to_text(*largest, 6) +
+           "\nThe bone is " + box_text(bone) + "; " + image->order + "\n" +
+           range;
   }
 } // namespace Debond

@@ -1,80 +1,23 @@
-#include <debond/shapes/cell_collector.h>
+#include <debond/shapes/block_mesh.h>
 #include <debond/shapes/revolved_mesh.h>
 
 #include <cmath>
-#include <tuple>
 
 namespace Debond
 {
   namespace
   {
     using Point = dealii::Point<3>;
+    using Place = Block::Place;
 
-    /** Nodes are counted from the inner to the outer face, around and along; in
-     *  the core across it and along. The first number of a key is 1 there. */
-    class MeshOfRevolution : public CellCollector
+    double
+    height_at(const RevolvedBody &body, const unsigned int along)
     {
-    public:
-      explicit MeshOfRevolution(const RevolvedBody &body);
-
-    private:
-      Point
-      on_circle(const RevolvedBody::Radius &radius,
-                const double                z,
-                const unsigned int          around) const
-      {
-        const double angle = 2. * M_PI * around / (2 * n[0]) - M_PI,
-                     r     = radius(z, angle);
-        return {r * std::cos(angle), r * std::sin(angle), z};
-      }
-      double
-      height(const unsigned int along) const
-      {
-        return body.lowest +
-               body.height * (body.contact == RevolvedBody::Part::bottom ?
-                                part_of_way(along, n[2], true, body.grading) :
-                                along / (2. * n[2]));
-      }
-      Point
-      in_core(const Place &place) const;
-      Key
-      of_ring(const Place &place) const;
-      Key
-      of_core(const Place &place) const;
-      Point
-      position(const Key &key) const override;
-      void
-      name_parts(const Place &ring);
-
-      const RevolvedBody               &body;
-      const std::array<unsigned int, 3> n;
-      const unsigned int                across; ///< the core, halves of cells
-    };
-
-
-
-    MeshOfRevolution::MeshOfRevolution(const RevolvedBody &body)
-      : body(body)
-      , n(body.cells)
-      , across(n[0] / 2)
-    {
-      for (unsigned int k = 0; k < n[2]; ++k)
-        {
-          for (unsigned int j = 0; j < n[0]; ++j)
-            for (unsigned int i = 0; i < n[1]; ++i)
-              {
-                add({{2 * i, 2 * j, 2 * k}},
-                    [&](const Place &place) { return of_ring(place); });
-                name_parts({{i, j, k}});
-              }
-          for (unsigned int j = 0; j < across && !body.inner; j += 2)
-            for (unsigned int i = 0; i < across; i += 2)
-              {
-                add({{i, j, 2 * k}},
-                    [&](const Place &place) { return of_core(place); });
-                name_parts({{n[1], 0, k}});
-              }
-        }
+      const unsigned int n = body.cells[2];
+      return body.lowest +
+             body.height * (body.contact == RevolvedBody::Part::bottom ?
+                              part_of_way(along, n, true, body.grading) :
+                              along / (2. * n));
     }
 
 
@@ -82,9 +25,10 @@ namespace Debond
     // Its corners are at half of the radius: cells are no slimmer in the core
     // than around it.
     Point
-    MeshOfRevolution::in_core(const Place &place) const
+    in_core(const RevolvedBody &body, const Place &place)
     {
-      const double z = height(place[2]), quarter = 0.25 * body.outer(z, 0.),
+      const double across = body.cells[0] / 2, // halves of cells
+        z = height_at(body, place[2]), quarter = 0.25 * body.outer(z, 0.),
                    x = 2. * place[0] / across - 1.,
                    y = 2. * place[1] / across - 1.;
       return {quarter * (x + y), quarter * (y - x), z};
@@ -92,90 +36,36 @@ namespace Debond
 
 
 
-    CellCollector::Key
-    MeshOfRevolution::of_ring(const Place &place) const
-    {
-      return {{0, place[0], place[1] % (2 * n[0]), place[2]}};
-    }
-
-
-
-    // Around the core it is a node of the first ring.
-    CellCollector::Key
-    MeshOfRevolution::of_core(const Place &place) const
-    {
-      const auto [x, y, z] = place;
-      const int around     = y == 0      ? int(x) :
-                             x == across ? int(across + y) :
-                             y == across ? int(3 * across - x) :
-                             x == 0      ? int(4 * across - y) :
-                                           -1;
-      return around < 0 ? Key{{1, x, y, z}} :
-                          of_ring({{0, static_cast<unsigned int>(around), z}});
-    }
-
-
-
+    // From the inner to the outer face, around and along.
     Point
-    MeshOfRevolution::position(const Key &key) const
+    in_ring(const RevolvedBody &body, const Place &place)
     {
-      const auto [is_core, radial, around, along] = key;
-      if (is_core == 1)
-        return in_core({{radial, around, along}});
-      const double z = height(along);
-      const double part =
-        part_of_way(radial,
-                    n[1],
-                    body.contact == RevolvedBody::Part::inner,
-                    body.contact == RevolvedBody::Part::bottom ? 1. :
-                                                                 body.grading);
+      using Part         = RevolvedBody::Part;
+      const double z     = height_at(body, place[2]),
+                   angle = M_PI * place[1] / body.cells[0] - M_PI,
+                   part =
+                     part_of_way(place[0],
+                                 body.cells[1],
+                                 body.contact == Part::inner,
+                                 body.contact == Part::bottom ? 1. :
+                                                                body.grading);
+      const auto on_circle = [&](const RevolvedBody::Radius &radius) {
+        const double r = radius(z, angle);
+        return Point(r * std::cos(angle), r * std::sin(angle), z);
+      };
       Point start;
       if (body.inner)
-        start = on_circle(body.inner, z, around);
+        start = on_circle(body.inner);
       else
         {
-          const unsigned int side = around / across, on = around % across;
+          const unsigned int across = body.cells[0] / 2,
+                             side   = place[1] / across % 4,
+                             on     = place[1] % across;
           const unsigned int corner[]{on, across, across - on, 0};
-          start = in_core({{corner[side], corner[(side + 3) % 4], along}});
+          start =
+            in_core(body, {{corner[side], corner[(side + 3) % 4], place[2]}});
         }
-      return start + part * (on_circle(body.outer, z, around) - start);
-    }
-
-
-
-    // Of the cell that was added last. Two corners of a face are at one end
-    // around, two at the other: edges between them are arcs.
-    void
-    MeshOfRevolution::name_parts(const Place &cell)
-    {
-      using Part           = RevolvedBody::Part;
-      using Corners        = std::array<unsigned int, 4>;
-      const auto from_axis = [&] { // of its bottom
-        const Point middle = position({{0, 2 * cell[0] + 1, 0, 0}});
-        return std::hypot(middle[0], middle[1]);
-      };
-      for (const auto &[part, is_there, group, corners] :
-           {std::make_tuple(Part::bottom,
-                            cell[2] == 0 && from_axis() >= body.bottom_from,
-                            body.bottom_name,
-                            Corners{{0, 1, 2, 3}}),
-            std::make_tuple(Part::inner,
-                            body.inner && cell[0] == 0,
-                            body.inner_name,
-                            Corners{{0, 4, 2, 6}}),
-            std::make_tuple(Part::outer,
-                            cell[0] == n[1] - 1,
-                            body.outer_name,
-                            Corners{{1, 5, 3, 7}})})
-        if (is_there)
-          {
-            const bool is_contact = body.contact == part;
-            name(is_contact ? "contact" : group, corners);
-            for (unsigned int k = 0; k < 2 && is_contact && body.is_round; ++k)
-              add_arc(corners[k], corners[k + 2], std::cos(M_PI / n[0]));
-          }
-      if (cell[2] == n[2] - 1)
-        name(body.top_name, {{4, 5, 6, 7}});
+      return start + part * (on_circle(body.outer) - start);
     }
   } // namespace
 
@@ -184,6 +74,28 @@ namespace Debond
   StoredMesh
   mesh_of_revolution(const RevolvedBody &body)
   {
-    return std::move(MeshOfRevolution(body).stored);
+    using Part                                = RevolvedBody::Part;
+    const auto &[n_around, n_radial, n_along] = body.cells;
+    const auto name = [&](const Part part, const std::string &other) {
+      return body.contact == part ? "contact" : other;
+    };
+    const std::string  bottom = name(Part::bottom, body.bottom_name);
+    std::vector<Block> blocks{
+      {{{n_radial, n_around, n_along}},
+       [&](const Place &place) { return in_ring(body, place); },
+       {{body.inner ? name(Part::inner, body.inner_name) : "",
+         name(Part::outer, body.outer_name),
+         "",
+         "",
+         bottom,
+         body.top_name}}}};
+    if (!body.inner)
+      blocks.push_back(
+        {{{n_around / 4, n_around / 4, n_along}},
+         [&](const Place &place) { return in_core(body, place); },
+         {{"", "", "", "", bottom, body.top_name}}});
+    StoredMesh mesh = mesh_of_blocks(blocks);
+    mesh.has_arcs   = body.is_round;
+    return mesh;
   }
 } // namespace Debond

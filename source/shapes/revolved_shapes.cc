@@ -4,6 +4,7 @@
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Debond
@@ -181,7 +182,7 @@ namespace Debond
     check_sleeve(const BodyParameters &body, const EntryCheck &refuse)
     {
       check_cells_around(body, false, refuse);
-      refuse(body.support_radius > 0. && body.ends != SleeveEnds::free,
+      refuse(body.support_radius > 0. && !body.ends.empty(),
              "Ends",
              "the bone stands on a ring (Support radius), which holds its "
              "bottom: expected free");
@@ -225,12 +226,22 @@ namespace Debond
       result.outer        = always(body.outer_radius);
       result.is_round     = implant.geometry().waves_around == 0.;
       result.contact      = RevolvedBody::Part::inner;
-      result.outer_name   = stands_on_ring ? "free" : "held";
-      result.top_name     = name_of(body.ends);
+      result.outer_name   = stands_on_ring ? "" : "held";
+      result.top_name     = body.ends;
       result.bottom_name  = stands_on_ring ? "held" : result.top_name;
-      result.bottom_from  = body.support_radius;
       StoredMesh stored   = mesh_of_revolution(result);
-      if (stands_on_ring && stored.groups["held"].empty())
+      if (!stands_on_ring)
+        return stored;
+      const auto is_over_hole = [&](const auto &corners) {
+        double r = 0.;
+        for (const unsigned int node : corners)
+          r += 0.25 * std::hypot(stored.nodes[node][0], stored.nodes[node][1]);
+        return r < body.support_radius;
+      };
+      auto &held = stored.groups["held"];
+      held.erase(std::remove_if(held.begin(), held.end(), is_over_hole),
+                 held.end());
+      if (held.empty())
         throw EntryError("Bone / Support radius",
                          "the bone falls through this hole: expected less "
                          "than the middle of the outermost cells",

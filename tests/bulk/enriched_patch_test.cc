@@ -31,7 +31,7 @@ patch_test(const BodyParameters &parameters, const Side side)
 {
   const BulkSpace     mesh(parameters, side);
   const NeoHookean    material = NeoHookean::from_young(18000., 0.3);
-  const EnrichedCells cells(mesh, material_of(material));
+  const EnrichedCells cells(mesh, material);
   const double        H[3][3] = {{2e-3, -1e-3, 3e-3},
                                  {4e-3, 1e-3, -2e-3},
                                  {1e-3, 5e-3, -3e-3}};

@@ -25,8 +25,7 @@ Error
 patch_test(const BodyParameters &body, const Side side, const double volume)
 {
   const BulkSpace       mesh(body, side);
-  const EnrichedCells   cells(mesh,
-                            material_of(NeoHookean::from_young(18000., 0.3)));
+  const EnrichedCells   cells(mesh, NeoHookean::from_young(18000., 0.3));
   const Eigen::VectorXd force = forces_of_uniform_strain(mesh, cells);
   Error                 error;
   Eigen::Vector3d       sum     = Eigen::Vector3d::Zero();

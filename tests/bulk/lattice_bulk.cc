@@ -68,8 +68,8 @@ check(const std::string &name, BodyParameters parameters)
   const auto      bulk = make_lattice_bulk(
     mesh,
     EnrichedCells(mesh,
-                  material_of(NeoHookean::from_young(
-                    parameters.young_modulus, parameters.poisson_ratio))));
+                  NeoHookean::from_young(parameters.young_modulus,
+                                         parameters.poisson_ratio)));
   std::vector<bool> contact(mesh.surface().n_control_points(), false);
   contact[parameters.cells[0] + 3]  = true; // not at a side
   const std::vector<unsigned int> c = bulk->set_contact(contact);
@@ -120,8 +120,7 @@ check(const std::string &name, BodyParameters parameters)
     }
   catch (const EntryError &error)
     {
-      report("  contact at a side is refused",
-             error.entry == "Bone / Solver");
+      report("  contact at a side is refused", error.entry == "Bone / Solver");
     }
 }
 

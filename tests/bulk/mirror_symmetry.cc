@@ -28,8 +28,8 @@ check(const std::string &name, const BulkSpace &mesh)
   const auto            bulk       = make_condensed_bulk(
     mesh,
     EnrichedCells(mesh,
-                  material_of(NeoHookean::from_young(
-                    parameters.young_modulus, parameters.poisson_ratio))));
+                  NeoHookean::from_young(parameters.young_modulus,
+                                         parameters.poisson_ratio)));
   const unsigned int n_cp = mesh.surface().n_control_points();
   std::vector<bool>  contact(n_cp, false);
   for (unsigned int A = 0; A < n_cp; ++A)
@@ -131,8 +131,8 @@ check_unsymmetric(const ElementKind element, const std::string &name)
         check(what + " as " + name_of(side) + name, mesh);
         report(is_mirrored ? "  is its own mirror image" :
                              "  is not its own mirror image",
-               MirrorSymmetry::of(mesh, EnrichedCells(mesh, {})).has_value() ==
-                 is_mirrored);
+               MirrorSymmetry::of(mesh, EnrichedCells(mesh, NeoHookean()))
+                   .has_value() == is_mirrored);
       }
   };
   ControlNet shifted = face.control_points();
@@ -174,7 +174,8 @@ check_fitted()
               (side == Side::bone ? "bone" : "coin"),
             mesh);
       report("  are their own mirror image",
-             MirrorSymmetry::of(mesh, EnrichedCells(mesh, {})).has_value());
+             MirrorSymmetry::of(mesh, EnrichedCells(mesh, NeoHookean()))
+               .has_value());
     }
 }
 

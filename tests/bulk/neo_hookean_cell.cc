@@ -233,7 +233,7 @@ check(const std::string    &name,
   const double G      = parameters.young_modulus / (2. + 2. * nu); // Eq. (2)
   const double Lambda = 2. * G * nu / (1. - 2. * nu);
 
-  const EnrichedCells cells(mesh, material_of(material));
+  const EnrichedCells cells(mesh, material);
   Eigen::VectorXd     v(3 * mesh.n_nodes());
   for (double &component : v)
     component = amplitude * random_number(-1., 1.);

@@ -10,8 +10,8 @@ stiffness_at_rest(const Debond::BulkSpace &mesh)
 {
   const Debond::EnrichedCells cells(
     mesh,
-    Debond::material_of(Debond::NeoHookean::from_young(
-      mesh.parameters().young_modulus, mesh.parameters().poisson_ratio)));
+    Debond::NeoHookean::from_young(mesh.parameters().young_modulus,
+                                   mesh.parameters().poisson_ratio));
   const unsigned int n = 3 * mesh.n_nodes();
   Eigen::MatrixXd    K = Eigen::MatrixXd::Zero(n, n), K_cell;
   for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "rectangle_of.h"
+
 using namespace Debond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -256,7 +258,7 @@ check_above_corners(const NurbsSurface &disk)
 void
 check_beyond_rectangle(const unsigned int degree)
 {
-  const NurbsSurface surface    = NurbsSurface::rectangle(2, 1, 5, 4, degree);
+  const NurbsSurface surface    = rectangle_of(2, 1, 5, 4, degree);
   double             parameters = 0, distance = 0;
   bool               all_converged = true, none_orthogonal = true;
   for (const double beyond : {1e-8, 0.01, 3.})
@@ -328,7 +330,7 @@ check_beyond_disk(const NurbsSurface &disk, const double R)
 void
 check_ridge()
 {
-  const NurbsSurface surface = NurbsSurface::rectangle(2, 1, 4, 3, 1);
+  const NurbsSurface surface = rectangle_of(2, 1, 4, 3, 1);
   ControlNet         roof    = surface.control_points();
   for (unsigned int k = 0; k < roof.cols(); ++k)
     roof(2, k) = -0.5 * std::abs(roof(0, k));
@@ -487,9 +489,9 @@ check_that_it_ends()
 int
 main()
 {
-  const NurbsSurface rectangle = NurbsSurface::rectangle(1, 1, 8, 4);
+  const NurbsSurface rectangle = rectangle_of(1, 1, 8, 4);
   const NurbsSurface disk      = NurbsSurface::disk(0.6, 8);
-  const NurbsSurface linear    = NurbsSurface::rectangle(1, 1, 4, 4, 1);
+  const NurbsSurface linear    = rectangle_of(1, 1, 4, 4, 1);
   const NurbsSurface faceted   = disk.bilinear_interpolant();
 
   check_recovery("Flat rectangle", rectangle, rectangle.control_points());
@@ -515,7 +517,7 @@ main()
   check_against_samples("Deformed disk, degree 1", faceted, deformed(faceted));
   check_against_samples("Hilly rectangle", rectangle, hilly(rectangle));
   check_against_samples("Hilly disk, degree 1", faceted, hilly(faceted));
-  const NurbsSurface element = NurbsSurface::rectangle(1, 1, 1, 1);
+  const NurbsSurface element = rectangle_of(1, 1, 1, 1);
   check_against_samples("One hilly element", element, hilly(element));
   check_that_it_ends();
 }

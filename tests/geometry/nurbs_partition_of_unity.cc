@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "rectangle_of.h"
+
 using namespace Debond;
 
 void
@@ -97,7 +99,7 @@ void
 check_affine(const unsigned int degree)
 {
   const double       lx = 7, ly = 3;
-  const NurbsSurface surface  = NurbsSurface::rectangle(lx, ly, 5, 4, degree);
+  const NurbsSurface surface  = rectangle_of(lx, ly, 5, 4, degree);
   double             position = 0, slope = 0;
   for_all_points(
     surface, [&](const Eigen::Vector2d &xi, const SurfaceBasis &b) {

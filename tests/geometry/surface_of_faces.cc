@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "checks.h"
+#include "rectangle_of.h"
 
 using namespace Debond;
 using Eigen::Vector2d;
@@ -126,7 +127,7 @@ rectangle()
 {
   std::cout << "a rectangle of 4 x 4 turned faces and as one patch"
             << std::endl;
-  const auto         patch = NurbsSurface::rectangle(2, 2, 4, 4, 1);
+  const auto         patch = rectangle_of(2, 2, 4, 4, 1);
   const Mesh         mesh({{{Vector3d(-1, -1, 0),
                              Vector3d(1, -1, 0),
                              Vector3d(-1, 1, 0),

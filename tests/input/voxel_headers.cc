@@ -5,6 +5,7 @@
 
 #include <debond/input/voxel_image.h>
 #include <debond/shapes/body_parameters.h>
+#include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
 
 #include <Eigen/Core>
@@ -367,7 +368,7 @@ namespace
     bone.modulus_expression = "40 * grey";
     bone.voxel_file         = "words.mha";
     bone.read_modulus(1.);
-    std::cout << bone.modulus_in_words() << std::endl;
+    std::cout << bone.modulus->in_words() << std::endl;
   }
 } // namespace
 

@@ -22,6 +22,7 @@
 
 #include "checks.h"
 #include "law_of_text.h"
+#include "rectangle_of.h"
 
 using namespace Debond;
 
@@ -38,7 +39,7 @@ distorted(const NurbsSurface &surface)
   return (turn.toRotationMatrix() * net).eval();
 }
 
-const NurbsSurface surfaces[]{NurbsSurface::rectangle(1.2, 1., 3, 3),
+const NurbsSurface surfaces[]{rectangle_of(1.2, 1., 3, 3),
                               NurbsSurface::disk(0.6, 3)};
 const ControlNet   nets[]{distorted(surfaces[0]), distorted(surfaces[1])};
 

@@ -15,6 +15,7 @@
 
 #include "checks.h"
 #include "law_of_text.h"
+#include "rectangle_of.h"
 
 using namespace Debond;
 
@@ -200,7 +201,7 @@ public:
   PulledPoint(const std::string &evolution,
               const double       spring,
               const double       kick)
-    : surface(NurbsSurface::rectangle(4., 1., 1, 1))
+    : surface(rectangle_of(4., 1., 1, 1))
     , positions(surface.control_points())
     , spring(spring)
   {
@@ -322,7 +323,7 @@ check_growth(const std::string &evolution, const double ratio)
 void
 check_aged_point()
 {
-  const NurbsSurface surface   = NurbsSurface::rectangle(4., 1., 1, 1);
+  const NurbsSurface surface   = rectangle_of(4., 1., 1, 1);
   const ControlNet   positions = surface.control_points();
   ContactPointLaw    law;
   law.tangential_penalty = 585.;

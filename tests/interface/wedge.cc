@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "rectangle_of.h"
 
 using namespace Debond;
 using Eigen::Vector3d;
@@ -41,11 +42,11 @@ public:
     , rotation(Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) *
                Eigen::AngleAxisd(-std::atan(slope), Vector3d::UnitY()))
     , push(Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) * Vector3d::UnitX())
-    , incline(NurbsSurface::rectangle(10, 9, 7, 4))
+    , incline(rectangle_of(10, 9, 7, 4))
     , incline_positions(rotation * incline.control_points())
     , master{&incline, &incline_positions, 1.}
   {
-    const NurbsSurface      face   = NurbsSurface::rectangle(4, 5, 2, 3);
+    const NurbsSurface      face   = rectangle_of(4, 5, 2, 3);
     const ControlNet        placed = rotation * face.control_points();
     const dealii::QGauss<2> gauss(3);
     SurfaceBasis            basis;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "rectangle_of.h"
 
 using namespace Debond;
 
@@ -172,7 +173,7 @@ check_rectangle(const std::array<unsigned int, 2> n, const double grading)
             << grading << std::endl;
   const Eigen::Vector2d size(5., 4.);
   const NurbsSurface    rectangle =
-    NurbsSurface::rectangle(size[0], size[1], n[0], n[1], 2, grading);
+    rectangle_of(size[0], size[1], n[0], n[1], 2, grading);
   const NurbsSurface bilinear = rectangle.bilinear_interpolant();
 
   double lines = 0, affine = 0, projected = 0;

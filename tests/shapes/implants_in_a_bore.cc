@@ -112,7 +112,7 @@ patch_test(const BodyParameters &implant,
 {
   const BulkSpace       mesh(body, side);
   const NeoHookean      material = NeoHookean::from_young(18000., 0.3);
-  const EnrichedCells   cells(mesh, material_of(material));
+  const EnrichedCells   cells(mesh, material);
   const Eigen::VectorXd force = forces_of_uniform_strain(mesh, cells);
 
   Patch           result;

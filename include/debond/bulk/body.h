@@ -25,8 +25,7 @@ namespace Debond
   class Body
   {
   public:
-    /** @p has_bulk: it deforms. */
-    Body(const BodyParameters &parameters, Side side, bool has_bulk = false);
+    Body(const BodyParameters &parameters, Side side);
     virtual ~Body() = default;
 
     const BulkSpace &

@@ -88,17 +88,13 @@ namespace Debond
       , cells(std::move(cells))
     {}
 
-    /** Degrees of freedom of a cell, put into @p dofs. */
-    void
-    dofs_of(unsigned int                                  cell,
-            std::vector<dealii::types::global_dof_index> &dofs) const;
-    /** The same, and the stiffness K of the cell [N/mm] in state @p v, for
+    /** Degrees of freedom of a cell. */
+    std::vector<dealii::types::global_dof_index>
+    dofs_of(unsigned int cell) const;
+    /** The stiffness K of the cell [N/mm] in state @p v, for
      *  distribute_local_to_global(). */
-    void
-    stiffness_of(unsigned int                                  cell,
-                 const Eigen::VectorXd                        &v,
-                 dealii::FullMatrix<double>                   &K,
-                 std::vector<dealii::types::global_dof_index> &dofs) const;
+    dealii::FullMatrix<double>
+    stiffness_of(unsigned int cell, const Eigen::VectorXd &v) const;
     /** Adds to sums over the cells of this rank those of others, one entry for
      *  each vertex. */
     virtual void

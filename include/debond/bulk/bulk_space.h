@@ -12,13 +12,11 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
 #include <bitset>
-#include <memory>
 #include <vector>
 
 namespace Debond
@@ -114,11 +112,6 @@ namespace Debond
     {
       return scalar_fe;
     }
-    const dealii::Mapping<3> &
-    mapping() const
-    {
-      return *bulk_mapping;
-    }
     /** Constraints of nodes that follow others or are held, over 3 n_nodes()
      * degrees of freedom. */
     const dealii::AffineConstraints<double> &
@@ -207,10 +200,10 @@ namespace Debond
     }
     /** Fills in the tied nodes of a displacement vector (3 n_nodes). */
     void
-    distribute(Eigen::VectorXd &v) const;
+    distribute(Eigen::Ref<Eigen::VectorXd> v) const;
     /** Hands the forces of hanging nodes on to those that they follow. */
     void
-    condense(Eigen::VectorXd &force) const;
+    condense(Eigen::Ref<Eigen::VectorXd> force) const;
 
     /** A cell of the bulk: the nodes of FE_Q in
      *  deal.II's order, or, in the contact layer, the control points of its
@@ -231,23 +224,14 @@ namespace Debond
       return bulk_cells;
     }
 
-    /** Of the triangulation, if there is one. */
-    const dealii::Triangulation<3>::active_cell_iterator &
-    active_cell(const unsigned int cell) const
-    {
-      return active_cells[cell];
-    }
-
-    /** Frees the triangulation, of which nobody asks any more when the
-     *  gradients in the cells are known. */
+    /** Frees the triangulation, of which nobody asks any more when cells, nodes
+     *  and constraints are known. */
     void
     release_triangulation();
 
   private:
     void
     make_grid();
-    void
-    set_boundary_ids();
     void
     find_cells();
     void
@@ -256,8 +240,6 @@ namespace Debond
     place_in_lattice(const dealii::Point<3> &point) const;
     void
     place_nodes();
-    void
-    make_mapping();
     void
     number_nodes_of_splines();
     void
@@ -290,19 +272,17 @@ namespace Debond
     const NurbsSurface   contact_surface;
     const KnotVector     layer_knots;
 
-    dealii::Triangulation<3>            triangulation;
-    std::unique_ptr<dealii::Mapping<3>> bulk_mapping;
-    const dealii::FE_Q<3>               scalar_fe;
-    const dealii::FESystem<3>           vector_fe;
-    dealii::DoFHandler<3>               dofs;
-    dealii::AffineConstraints<double>   follow, all_constraints;
-    std::vector<dealii::Triangulation<3>::active_cell_iterator> active_cells;
-    std::vector<Eigen::Vector3d> reference_positions;
-    std::vector<bool>            fixed, tied;
-    std::vector<Cell>            bulk_cells;
-    unsigned int                 n_nodes_of_fe      = 0;
-    bool                         followers_in_cells = false;
-    dealii::IndexSet             own_nodes;
+    dealii::Triangulation<3>          triangulation;
+    const dealii::FE_Q<3>             scalar_fe;
+    const dealii::FESystem<3>         vector_fe;
+    dealii::DoFHandler<3>             dofs;
+    dealii::AffineConstraints<double> follow, all_constraints;
+    std::vector<Eigen::Vector3d>      reference_positions;
+    std::vector<bool>                 fixed, tied;
+    std::vector<Cell>                 bulk_cells;
+    unsigned int                      n_nodes_of_fe      = 0;
+    bool                              followers_in_cells = false;
+    dealii::IndexSet                  own_nodes;
   };
 
 

@@ -130,9 +130,6 @@ namespace Debond
     check_tables(const std::vector<double> &times, double radius) const;
 
   private:
-    /** The same with the sign of Press. */
-    TimeFunction
-    value_as_given(unsigned int component, double radius) const;
     void
     declare_component(unsigned int component,
                       bool         into_bone,

@@ -5,11 +5,9 @@
 #include <debond/bulk/hyperelastic_material.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
 
 #include <Eigen/Core>
 
-#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -26,8 +24,7 @@ namespace Debond
   public:
     /** @p mesh must outlive this object. @p material is that of the mesh's
      *  young_modulus. */
-    EnrichedCells(const BulkSpace                            &mesh,
-                  std::shared_ptr<const HyperelasticMaterial> material);
+    EnrichedCells(const BulkSpace &mesh, const HyperelasticMaterial &material);
 
     unsigned int
     n_cells() const
@@ -96,15 +93,11 @@ namespace Debond
     }
 
   private:
-    /** Add the gradients of a cell, and of all those that are alike, in the
-     *  reference configuration: of FE_Q, or by the functions @p phi of FE_Q at
-     *  the points. */
-    void
-    add_cell(const dealii::FEValues<3> &fe_values);
+    /** Adds the gradients of a cell, and of all those that are alike, in the
+     *  reference configuration, by the functions @p phi of FE_Q at the points.
+     */
     void
     add_cell(const BulkSpace::Cell &cell, const std::vector<ShapeValues> &phi);
-    double *
-    new_kind(unsigned int n_functions);
     /** Gradient of shape function a in direction d at point q:
      *  gradients(cell)[(3 a + d) n_points() + q]. */
     const double *
@@ -150,15 +143,15 @@ namespace Debond
     void
     find_factors();
 
-    const BulkSpace                            &mesh;
-    std::shared_ptr<const HyperelasticMaterial> bulk_material;
-    const dealii::QGauss<1>                     line;
-    const dealii::QGauss<3>                     quadrature;
-    std::vector<unsigned int>                   kinds; ///< of each cell
-    std::vector<std::size_t> first_gradient;           ///< of each kind
-    std::vector<double>      gradient_list;
-    std::vector<double>      JxW;     ///< of the points of a kind [mm^3]
-    std::vector<double>      factors; ///< of those of a cell; empty: all 1
+    const BulkSpace          &mesh;
+    HyperelasticMaterial      bulk_material;
+    const dealii::QGauss<1>   line;
+    const dealii::QGauss<3>   quadrature;
+    std::vector<unsigned int> kinds;          ///< of each cell
+    std::vector<std::size_t>  first_gradient; ///< of each kind
+    std::vector<double>       gradient_list;
+    std::vector<double>       JxW;     ///< of the points of a kind [mm^3]
+    std::vector<double>       factors; ///< of those of a cell; empty: all 1
   };
 } // namespace Debond
 #endif

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 
 #include <functional>
-#include <memory>
 #include <tuple>
 
 namespace Debond
@@ -49,7 +48,7 @@ namespace Debond
     /** Material of a law with the templates stress(H, P), energy(H) and
      *  tangent(H, C) for a Number, as NeoHookean has them. */
     template <typename Law>
-    explicit HyperelasticMaterial(const Law &law)
+    HyperelasticMaterial(const Law &law)
       : in_cells(law, law)
     {}
 
@@ -92,12 +91,5 @@ namespace Debond
 
     const std::tuple<InCell<8>, InCell<27>> in_cells;
   };
-
-  template <typename Law>
-  std::shared_ptr<const HyperelasticMaterial>
-  material_of(const Law &law)
-  {
-    return std::make_shared<const HyperelasticMaterial>(law);
-  }
 } // namespace Debond
 #endif

@@ -55,6 +55,7 @@ namespace Debond
    */
   struct DofClass
   {
+    DofClass() = default;
     /** Unknowns that @p constraints leave, which are those of the space and
      * maybe such that make a degree of freedom a multiple of another one. */
     DofClass(const BulkSpace                         &space,

@@ -235,9 +235,6 @@ namespace Debond
     /** The same surface with one more knot (Boehm); repeated calls refine. */
     NurbsSurface
     insert_knot(unsigned int direction, double knot) const;
-    /** The same surface with n1 x n2 equal knot spans. Starts from one span. */
-    NurbsSurface
-    refine_uniformly(unsigned int n1, unsigned int n2) const;
 
     /** The exact disk of radius @p R around the origin in the plane z = 0 as
      * one rational biquadratic patch (theory: corners (+-R/sqrt2, +-R/sqrt2)
@@ -281,13 +278,6 @@ namespace Debond
               double            ly,
               const KnotVector &knots_1,
               const KnotVector &knots_2);
-    static NurbsSurface
-    rectangle(double       lx,
-              double       ly,
-              unsigned int n1,
-              unsigned int n2,
-              unsigned int degree  = 2,
-              double       grading = 1);
 
     /** Degree-1 surface with the same elements whose control points are the
      *  surface's points at the knots: the `bilinear` contact surface. */

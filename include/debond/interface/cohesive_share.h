@@ -39,6 +39,8 @@ namespace Debond
                 PointStart             start,
                 const Eigen::Vector3d &before) const;
 
+    /** @name Trial state of the last update(), and its derivatives */
+    //@{
     bool            holds    = false;
     double          damage   = 0;        ///< at the end of the step
     double          pressure = 0;        ///< negative: the pull [MPa]

@@ -46,9 +46,9 @@ namespace Debond
     using Vertices = std::array<unsigned int, 8>;
     /** Nodes in the middle of edges, faces and cells, of order 2. */
     std::map<Vertices, dealii::Point<3>> middles;
-    /** Of edges of the contact face that are arcs, the weight of the control
-     *  point in their middle; of all others it is 1. */
-    std::map<Vertices, double> weights;
+    /** Whether edges of the contact face are arcs of circles, or straight,
+     *  exactly. */
+    bool has_arcs = false;
     /** Of a contact face that is part of a sphere; a radius of 0: it is none.
      */
     dealii::Point<3> sphere_centre;

@@ -32,17 +32,6 @@ namespace Debond
     cup,
     cavity
   };
-  /** How both ends of a sleeve, or the top of a cavity, are held. */
-  enum class SleeveEnds
-  {
-    free,
-    slide, ///< no motion along the axis
-    axial, ///< only motion along the axis
-    held
-  };
-  /** As the files of meshes call it. */
-  const char *
-  name_of(SleeveEnds ends);
   /** In the order of their cost, and of the choices of the entry. Those after
    *  `linear' have large strains. */
   enum class Material
@@ -81,12 +70,14 @@ namespace Debond
     double                outer_radius = 0; ///< sleeve, cavity [mm]; 0: a block
     double                height = 3; ///< of round implants, on the axis [mm]
     double                sleeve_height = 0; ///< 0: that of the implant [mm]
-    double     support_radius = 0; ///< of the hole below a sleeve [mm]; 0: none
-    SleeveEnds ends           = SleeveEnds::free;
-    double     taper_angle    = 3;            ///< half of the cone's [deg]
-    double     pitch = 1, thread_depth = 0.2; ///< screw [mm]
-    unsigned int starts     = 1;              ///< screw
-    double       cap_radius = 50;             ///< of the sphere [mm]
+    double support_radius = 0; ///< of the hole below a sleeve [mm]; 0: none
+    /** How both ends of a sleeve, or the top of a cavity, are held, as the
+     * files of meshes call it; empty: free. */
+    std::string  ends;
+    double       taper_angle = 3;               ///< half of the cone's [deg]
+    double       pitch = 1, thread_depth = 0.2; ///< screw [mm]
+    unsigned int starts     = 1;                ///< screw
+    double       cap_radius = 50;               ///< of the sphere [mm]
     std::string  mesh_file;
     /** Of a shape that is no lattice; see make_mesh(). */
     std::shared_ptr<const BodyMesh> mesh;
@@ -112,10 +103,9 @@ namespace Debond
      *  are; see read_modulus(). */
     std::string modulus_expression, voxel_file, voxel_corner = "centred";
     std::shared_ptr<const ModulusField> modulus; ///< null: young_modulus
-    double      smallest_modulus = 0;            ///< of `modulus` [MPa]
-    double      poisson_ratio    = 0.3;
-    SurfaceKind contact_surface  = SurfaceKind::nurbs;
-    BulkSolver  bulk_solver      = BulkSolver::automatic; ///< bone
+    double                              poisson_ratio   = 0.3;
+    SurfaceKind                         contact_surface = SurfaceKind::nurbs;
+    BulkSolver bulk_solver = BulkSolver::automatic; ///< bone
 
     /** Whether the body does not deform, and has no unknowns. */
     bool
@@ -218,10 +208,6 @@ namespace Debond
     std::vector<double>
     lateral_fractions(unsigned int direction) const;
 
-    /** Corners of the box around a bone at rest [mm]. */
-    std::array<std::array<double, 3>, 2>
-    corners_of_bone() const;
-
     /** Makes or reads the mesh of a shape that has one; a bone may have a bore
      *  for the @p implant. Throws EntryError. */
     void
@@ -233,9 +219,6 @@ namespace Debond
     read_modulus(double radius);
     double
     softest_modulus() const; ///< [MPa]
-    /** What `modulus` is and where its voxels are, as lines of text. */
-    std::string
-    modulus_in_words() const;
 
     /** Refuses what makes no sense together. Throws EntryError; @p section is
      *  "Bone" or "Implant". */

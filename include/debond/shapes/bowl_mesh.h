@@ -24,12 +24,6 @@ namespace Debond
     /** The point between others, from their mean. */
     dealii::Point<3>
     between(const dealii::Point<3> &mean, bool is_at_rim) const;
-    /** Of the control point between two points of the sphere, see
-     *  StoredMesh::Arc. */
-    double
-    weight(const dealii::Point<3> &p,
-           const dealii::Point<3> &q,
-           bool                    is_at_rim) const;
   };
 
   /** What is between two such faces, or within the outer one. The grid on them
@@ -43,10 +37,10 @@ namespace Debond
     bool     contact_is_inner = false;
     /** Layers of cells from the contact face, as `Layer grading' says. */
     double grading = 1;
-    /** What the other parts of the boundary are, as in the files of meshes. The
-     *  sides of the opposite face are those across x and y. */
-    std::string                rim = "free", bottom = "free";
-    std::array<std::string, 2> sides{{"free", "free"}};
+    /** What the other parts of the boundary are in the files of meshes, empty:
+     *  free. The sides of the opposite face are those across x and y. */
+    std::string                rim, bottom;
+    std::array<std::string, 2> sides;
   };
 
   StoredMesh

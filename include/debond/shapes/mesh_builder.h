@@ -46,10 +46,6 @@ namespace Debond
     place_points();
     void
     number_vertices();
-    void
-    check_shapes() const;
-    void
-    check_middles(const Points &x) const;
     bool
     is_tangled(const Points &x) const;
     void

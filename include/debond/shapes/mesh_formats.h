@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Debond
@@ -42,10 +41,9 @@ namespace Debond
     /** Corners of the faces of each named group. Of a triangle the last one is
      *  none. */
     std::map<std::string, std::vector<std::array<unsigned int, 4>>> groups;
-    /** Edges of the contact face that are arcs of circles, exactly: both ends,
-     *  and the weight of the control point between, the cosine of half the
-     *  angle. */
-    std::vector<std::pair<std::array<unsigned int, 2>, double>> arcs;
+    /** Whether edges of the contact face are arcs of circles, or straight,
+     *  exactly. */
+    bool has_arcs = false;
     /** Of a contact face that is part of a sphere [mm]; a radius of 0: it is
      *  none. */
     dealii::Point<3> sphere_centre;

@@ -17,13 +17,17 @@ namespace Debond
   class ModulusField
   {
   public:
+    /** Corners of a box [mm], the lowest and the highest. */
+    using Box = std::array<Eigen::Vector3d, 2>;
+
     /** @p image: voxels, whose lowest corner is at @p corner [mm] in the scene,
-     *  or null. @p radius: the constant R [mm]. Throws EntryError if the
-     *  expression is invalid. */
+     *  or null. @p radius: the constant R [mm]. @p bone: the box around it.
+     *  Throws EntryError if the expression is invalid. */
     ModulusField(const std::string                &expression,
                  std::shared_ptr<const VoxelImage> image,
                  const std::array<double, 3>      &corner,
-                 double                            radius);
+                 double                            radius,
+                 const Box                        &bone);
 
     /** What stands for the box with these corners [MPa]: the mean over a sample
      *  for each voxel in it, or, without voxels, the value at @p point. Throws
@@ -34,13 +38,16 @@ namespace Debond
              const Eigen::Vector3d &upper,
              const Eigen::Vector3d &point) const;
 
-    /** Moduli in a box [MPa], by some thousand points. */
+    /** Moduli in the bone [MPa], by some thousand points. */
     struct Range
     {
-      double smallest, mean, largest;
+      double smallest = 1e300, mean = 0., largest = 0.;
     };
-    Range
-    range(const Eigen::Vector3d &lower, const Eigen::Vector3d &upper) const;
+    const Range &
+    range() const
+    {
+      return range_in_bone;
+    }
 
     /** Whether it is the same everywhere at the same z. */
     bool
@@ -53,26 +60,22 @@ namespace Debond
     {
       return image.get();
     }
-    /** Lines: how many voxels there are, of which size, from where to where,
-     *  with which grey values; where the bone is, by its corners, and which
-     *  voxel is the first of the file. Empty without voxels. */
+    /** Lines: of voxels how many there are, of which size, from where to where,
+     *  with which grey values, where the bone is, and which voxel is the first
+     *  of the file; then the range of moduli. */
     std::string
-    voxels_text(const std::array<double, 3> &bone_lower,
-                const std::array<double, 3> &bone_upper) const;
+    in_words() const;
 
   private:
     double
     at(const Eigen::Vector3d &X) const;
 
-    /** From where to where there are voxels. */
-    std::string
-    extent_text() const;
-
     const std::string                       text;
     const std::shared_ptr<const VoxelImage> image;
-    const std::array<double, 3>             corner;
+    const Box                               bone, of_voxels;
     const bool                              layered;
     const Expression                        modulus;
+    Range                                   range_in_bone;
   };
 } // namespace Debond
 #endif

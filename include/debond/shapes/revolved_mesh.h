@@ -31,11 +31,9 @@ namespace Debond
     bool is_round = true;
     /** Layers of cells from the contact face, as `Layer grading' says. */
     double grading = 1;
-    /** What the parts of the boundary are, as in the files of meshes. */
-    std::string inner_name = "free", outer_name = "free", bottom_name = "free",
-                top_name = "free";
-    /** Cells whose middle is nearer to the axis have a free bottom [mm]. */
-    double bottom_from = 0;
+    /** What the parts of the boundary are in the files of meshes, empty: free.
+     */
+    std::string inner_name, outer_name, bottom_name, top_name;
   };
 
   /** Its cells. The core of a solid one is square, of cells[0] / 4 cells

@@ -334,11 +334,19 @@ test()
         equal && !text.empty() && text == contents("results/again/" + name);
       dated = dated || text.find("library on") != std::string::npos;
     }
-  std::cout << "a second run writes the same files: " << (equal ? "yes" : "NO")
-            << std::endl
-            << "no file holds the date: " << (dated ? "NO" : "yes") << std::endl
-            << contents("results/fields/bulk.pvd")
-            << contents("results/fields/interface.pvd");
+  report("a second run writes the same files", equal);
+  report("no file holds the date", !dated);
+  for (const std::string series : {"bulk", "interface", "points"})
+    {
+      const std::string list = contents("results/fields/" + series + ".pvd");
+      bool              all  = true;
+      for (const std::string part : {"timestep=\"0\"",
+                                     "timestep=\"0.333333333333\"",
+                                     "-0000.vtu\"",
+                                     "-0001.vtu\""})
+        all = all && list.find(part) != list.npos;
+      report(series + ".pvd: times and files", all);
+    }
 }
 
 

@@ -354,11 +354,11 @@ namespace
               const Changes               &changes,
               const std::array<double, 2> &compliance,
               const std::vector<double>   &angles) {
-             const auto found =
+             const auto [torque, force] =
                curve.by_foundation(entries_of(changes), compliance, angles);
-             return std::make_pair(py::array_t<double>(found.torque.size(),
-                                                       found.torque.data()),
-                                   found.force);
+             return std::make_pair(py::array_t<double>(torque.size(),
+                                                       torque.data()),
+                                   force);
            })
       .def("by_scene",
            [](VaryingCurve                           &curve,

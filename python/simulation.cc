@@ -156,13 +156,10 @@ namespace
     bulk(const bool of_implant, const Eigen::Matrix3Xd &X) const
     {
       require_a_row();
-      const auto      &system = simulation->system();
-      const BodyPoints at(*system.body[of_implant], system.chuck, X);
-      Eigen::MatrixXd  stress(9, X.cols());
-      for (unsigned int p = 0; p < X.cols(); ++p)
-        stress.col(p) =
-          Eigen::Map<const Eigen::Matrix<double, 9, 1>>(at.stress[p].data());
-      return {at.displacement, stress};
+      const auto           &system = simulation->system();
+      const Eigen::MatrixXd values =
+        values_at_points(*system.body[of_implant], system.chuck, X);
+      return {values.topRows<3>(), values.bottomRows<9>()};
     }
 
     /** The state, for a simulation of the same scene. */

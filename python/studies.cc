@@ -1,7 +1,7 @@
 // What debond.study needs of the library: variants that run as processes of
 // their own, and what is known of their directories.
 
-#include <debond/campaigns/shared_bodies.h>
+#include <debond/campaigns/run_scene.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/profile_output.h>
 #include <debond/output/reference_comparison.h>

@@ -19,26 +19,19 @@ namespace Debond
     void
     refuse_what_has_no_curve(const Scene &scene)
     {
-      constexpr auto    z     = ChuckComponent::rotation_z;
-      const std::string entry = "Chuck / Rotation z / ";
-      if (scene.chuck.component[z].loaded)
-        throw EntryError(entry + "Control",
-                         "Model = auto compares torques and takes this "
-                         "rotation as prescribed");
+      constexpr auto z         = ChuckComponent::rotation_z;
+      const bool     is_loaded = scene.chuck.component[z].loaded;
       // expressions may do anything between planned steps
       ReferenceCurve turned;
       for (const double angle : scene.sampled_values(z))
         turned.emplace_back(angle, 0.);
       const Rotation rotation(turned);
-      if (rotation.direction == 0.)
-        throw EntryError(entry + "Value",
-                         "Model = auto judges a model by its torque curve, and "
-                         "nothing rotates about z in this scene: choose a "
-                         "model with Model");
-      if (rotation.reverses)
-        throw EntryError(entry + "Value",
-                         "Model = auto compares torques over the angle and "
-                         "knows no rotation that reverses");
+      if (is_loaded || rotation.direction == 0. || rotation.reverses)
+        throw EntryError(
+          scene.chuck.entry_name(z, is_loaded ? "Control" : "Value"),
+          "Model = auto compares torques over the angle: "
+          "expected a rotation that is prescribed and goes on "
+          "in one direction");
       for (unsigned int k = 0; k < z; ++k)
         {
           const std::vector<double> values = scene.sampled_values(k);
@@ -49,12 +42,10 @@ namespace Debond
             if (std::abs(turned[i].first - turned[i - 1].first) <=
                   rotation.tolerance &&
                 std::abs(q[i] - q[i - 1]) > rounding)
-              throw EntryError(
-                scene.chuck.entry_name(k, "Value"),
-                "Model = auto compares torques over the angle and would not "
-                "see what this does while the rotation about z pauses or has "
-                "ended; it may change before the rotation begins and during "
-                "it");
+              throw EntryError(scene.chuck.entry_name(k, "Value"),
+                               "Model = auto compares torques over the angle: "
+                               "expected no change while the rotation about z "
+                               "pauses or has ended");
         }
     }
 

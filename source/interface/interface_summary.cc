@@ -92,9 +92,6 @@ namespace Debond
     const auto number = [&](const unsigned int i, const unsigned int j) {
       return ((j / n * elements[0] + i / n) * n + j % n) * n + i % n;
     };
-    const auto point = [&](const unsigned int q) -> const SlavePoint & {
-      return points[q];
-    };
     double highest = 0.; // [mm]
     if (!law.joint->pulls())
       for (const SlavePoint &one : points)
@@ -102,31 +99,28 @@ namespace Debond
           highest =
             std::max(highest,
                      law.joint->reach(one.begin(*law.joint, mode_now), 0.));
+    const auto is_pressed = [&](const unsigned int q) {
+      return status(points[q]) != PointStatus::open &&
+             points[q].trial.pressure > 0.;
+    };
+    const auto has_opened = [&](const unsigned int q) { // not beyond the edge
+      return status(points[q]) == PointStatus::open &&
+             points[q].accepted.has_partner &&
+             points[q].trial.normal_gap > highest;
+    };
     // in its row, its column, or both
     std::vector<unsigned int> times_enclosed(points.size(), 0);
     for (const bool is_row : {true, false})
       for (unsigned int line = 0; line < n * elements[is_row]; ++line)
         {
-          std::vector<unsigned int> since_closed; // open points
-          bool                      any_closed = false;
+          std::vector<unsigned int> all;
           for (unsigned int k = 0; k < n * elements[!is_row]; ++k)
-            {
-              const unsigned int q = is_row ? number(k, line) : number(line, k);
-              if (status(point(q)) == PointStatus::open)
-                {
-                  // not beyond the edge
-                  if (point(q).accepted.has_partner &&
-                      point(q).trial.normal_gap > highest)
-                    since_closed.push_back(q);
-                }
-              else if (point(q).trial.pressure > 0.)
-                {
-                  for (const unsigned int open : since_closed)
-                    times_enclosed[open] += any_closed;
-                  since_closed.clear();
-                  any_closed = true;
-                }
-            }
+            all.push_back(is_row ? number(k, line) : number(line, k));
+          auto       q = std::find_if(all.begin(), all.end(), is_pressed);
+          const auto last =
+            std::find_if(all.rbegin(), all.rend(), is_pressed).base();
+          for (; q < last; ++q)
+            times_enclosed[*q] += has_opened(*q);
         }
     return std::count(times_enclosed.begin(), times_enclosed.end(), 2u);
   }

@@ -2,12 +2,11 @@
 #include <debond/interface/rigid_motion.h>
 #include <debond/interface/slip_problem.h>
 
-#include <deal.II/base/quadrature_lib.h>
+#include <boost/math/quadrature/gauss.hpp>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 
@@ -59,25 +58,23 @@ namespace Debond
           // `left' from 1 to 0. z is the squared tangent of half the angle
           // between gap and motion, which falls as left^power; the traction
           // along the motion is (1 - z)/(1 + z) of the limit.
-          static const dealii::QGauss<1> quadrature(6);
+          using Gauss         = boost::math::quadrature::gauss<double, 6>;
           const double cosine = motion.dot(then) / (way * length),
                        square = // of the tangent
                        (1. - cosine) / std::max(1. + cosine, 1e-12),
                        power = 2. * way / limit;
+          const auto loss    = [&](const double left) {
+            const double z    = square * std::pow(left, power),
+                         slip = (1. - left) * ((1. - s) * way + length) -
+                                limit * std::log((1. + square) / (1. + z));
+            return (left * (1. - s) * limit_at(std::max(0., slip)) + lag) *
+                   (1. - z) / (1. + z);
+          };
           // the gap turns while little of the way is done, if that is long
-          const std::array<double, 3> ends{{0., power / (power + 6.), 1.}};
-          for (unsigned int part = 0; part < 2; ++part)
-            for (unsigned int q = 0; q < quadrature.size(); ++q)
-              {
-                const double width = ends[part + 1] - ends[part],
-                             left = ends[part] + width * quadrature.point(q)[0],
-                             z    = square * std::pow(left, power),
-                             slip = (1. - left) * ((1. - s) * way + length) -
-                                    limit * std::log((1. + square) / (1. + z));
-                work += quadrature.weight(q) * width * (1. - s) * way *
-                        (left * (1. - s) * limit_at(std::max(0., slip)) + lag) *
-                        (1. - z) / (1. + z);
-              }
+          const double part = power / (power + 6.);
+          work += (1. - s) * way *
+                  (Gauss::integrate(loss, 0., part) +
+                   Gauss::integrate(loss, part, 1.));
         }
       // as if it stuck all the way, at most
       return stiffness * std::min(work,

@@ -25,22 +25,16 @@ namespace Debond
       std::vector<InterfacePoint> points;
       for (unsigned int i = 0; i < n; ++i)
         {
-          const double r     = R * (i + 0.5) / n;
-          const auto   point = model.point(r, theta);
-          points.push_back(
-            {{r,
-              0.,
-              r,
-              model.disk.pressure,
-              std::abs(point.traction),
-              point.slip,
-              point.phi,
-              point.mu,
-              double(point.sticks ? PointStatus::stick : PointStatus::slip),
-              2. * M_PI * r * R / n,
-              1.,
-              model.disk.friction->decay(point.slip).value,
-              point.traction == 0. ? 0. : 90.}});
+          const double   r     = R * (i + 0.5) / n;
+          const auto     point = model.point(r, theta);
+          InterfacePoint values;
+          values << r, 0., r, model.disk.pressure, std::abs(point.traction),
+            point.slip, point.phi, point.mu,
+            double(point.sticks ? PointStatus::stick : PointStatus::slip),
+            2. * M_PI * r * R / n, 1.,
+            model.disk.friction->decay(point.slip).value,
+            point.traction == 0. ? 0. : 90.;
+          points.push_back(values);
         }
       return points;
     }

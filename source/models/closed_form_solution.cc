@@ -183,7 +183,6 @@ namespace Debond
                 to_come.pop_back();
               }
           }
-        check();
       }
     };
 
@@ -317,13 +316,13 @@ namespace Debond
       row.phi_mean          = state.phi_mean;
       row.share_stick =
         p > 0. ? std::pow(solution.model->stick_radius(angle) / R, 2) : 0.;
-      row.share_open            = p > 0. ? 0. : 1.;
-      row.share_slip            = 1. - row.share_stick - row.share_open;
-      row.energy_interface_Nmm  = state.stored_energy;
-      row.dissipation_Nmm       = state.dissipation;
-      row.adhesive_work_Nmm     = state.adhesive_work;
-      row.reaction_defect       = TorsionModel::undefined;
-      row.chuck_reaction        = {{0, 0, -row.force_N, 0, 0, state.torque}};
+      row.share_open           = p > 0. ? 0. : 1.;
+      row.share_slip           = 1. - row.share_stick - row.share_open;
+      row.energy_interface_Nmm = state.stored_energy;
+      row.dissipation_Nmm      = state.dissipation;
+      row.adhesive_work_Nmm    = state.adhesive_work;
+      row.reaction_defect      = TorsionModel::undefined;
+      row.chuck_reaction << 0, 0, -row.force_N, 0, 0, state.torque;
       row.chuck_position[push]  = solution.scene.chuck.component[push].loaded ?
                                     TorsionModel::undefined :
                                     -load.push;

@@ -8,8 +8,9 @@
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace Debond
 {
@@ -42,6 +43,24 @@ namespace Debond
       return 0.5 * (bracket.first + bracket.second);
     }
   } // namespace
+
+
+
+  double
+  TorsionModel::Disk::slip_at(const double phi_0,
+                              const double target,
+                              const double before) const
+  {
+    const auto excess = [&](const double slip) {
+      const FrictionLimit L = limit(phi_0, slip);
+      return std::make_pair(slip + L.value / stiffness - target,
+                            1. + L.by_slip / stiffness);
+    };
+    // where L is constant the first step is the last one
+    const double guess = target - (path(phi_0, before) - before);
+    return boost::math::tools::newton_raphson_iterate(
+      excess, std::clamp(guess, before, target), before, target, 50);
+  }
 
 
 
@@ -117,19 +136,8 @@ namespace Debond
   double
   RigidBodiesTorsion::slip(const double r, const double theta) const
   {
-    const double phi_0    = initial_bonding(r);
-    const double distance = r * std::abs(theta);
-    const double begin    = disk.friction->kinks.front();
-    const double end      = disk.friction->kinks.back();
-    // Before and after the decay the coefficient is constant: mu p / eps_t of
-    // the path is elastic.
-    if (distance <= path(begin, phi_0))
-      return std::max(0., distance - path(0., phi_0));
-    if (distance >= path(end, phi_0))
-      return distance - (path(end, phi_0) - end);
-    return zero_of([&](const double g) { return path(g, phi_0) - distance; },
-                   begin,
-                   end);
+    const double phi_0 = initial_bonding(r), path = r * std::abs(theta);
+    return path <= disk.path(phi_0) ? 0. : disk.slip_at(phi_0, path);
   }
 
 
@@ -140,10 +148,10 @@ namespace Debond
     // a bonded core sticks further out than what surrounds it, or not at all
     const double core  = std::min(disk.radius, disk.bonded_radius);
     const double angle = std::max(1e-300, std::abs(theta));
-    const double inner = path(0., disk.phi_0) / angle;
+    const double inner = disk.path(disk.phi_0) / angle;
     if (inner < core)
       return inner;
-    return std::min(disk.radius, std::max(core, path(0., 0.) / angle));
+    return std::min(disk.radius, std::max(core, disk.path(0.) / angle));
   }
 
 
@@ -155,15 +163,121 @@ namespace Debond
     if (theta != 0.)
       for (const double phi_0 : {disk.phi_0, 0.})
         {
-          kinks.push_back(path(0., phi_0) / std::abs(theta));
+          kinks.push_back(disk.path(phi_0) / std::abs(theta));
           for (const double slip : disk.friction->kinks)
-            kinks.push_back(path(slip, phi_0) / std::abs(theta));
+            kinks.push_back(disk.path(phi_0, slip) / std::abs(theta));
         }
     return kinks;
   }
 
 
 
+  namespace
+  {
+    /** The integral of s^2 t ds from 0 to a path that grows, for points of one
+     *  phi_0. */
+    class AlongPath
+    {
+    public:
+      AlongPath(const TorsionModel::Disk &disk, const double phi_0)
+        : disk(disk)
+        , phi_0(phi_0)
+        , stick_limit(disk.path(phi_0))
+      {
+        // smooth parts of the decay are divided, for the Gauss points
+        constexpr unsigned int parts = 16;
+        const auto            &kinks = disk.friction->kinks;
+        ends                         = kinks;
+        for (unsigned int i = 1; i < parts; ++i)
+          ends.push_back(kinks.front() +
+                         (kinks.back() - kinks.front()) * i / parts);
+        std::sort(ends.begin(), ends.end());
+      }
+
+      /** Goes on to the path @p target [mm]. */
+      void
+      go_to(const double target)
+      {
+        if (s < stick_limit)
+          {
+            const double end = std::min(target, stick_limit);
+            integral +=
+              disk.stiffness * (std::pow(end, 4) - std::pow(s, 4)) / 4.;
+            s = end;
+          }
+        if (target <= stick_limit)
+          return;
+        const double last = disk.slip_at(phi_0, target, g);
+        for (auto end = std::upper_bound(ends.begin(), ends.end(), g); g < last;
+             ++end)
+          slide_to(end == ends.end() ? last : std::min(last, *end));
+        s = target;
+      }
+
+      double integral = 0; ///< [N mm]
+
+    private:
+      void
+      slide_to(const double end)
+      {
+        integral += boost::math::quadrature::gauss<double, 7>::integrate(
+          [&](const double slip) {
+            const FrictionLimit L = disk.limit(phi_0, slip);
+            const double        s = slip + L.value / disk.stiffness;
+            return s * s * L.value * (1. + L.by_slip / disk.stiffness);
+          },
+          g,
+          end);
+        g = end;
+      }
+
+      const TorsionModel::Disk &disk;
+      const double              phi_0;
+      const double              stick_limit; ///< path [mm]
+      std::vector<double>       ends;        ///< of parts of g [mm]
+      double                    s = 0, g = 0;
+    };
+  } // namespace
+
+
+
+  // A bonded core and what surrounds it are two such integrals: that of the
+  // core up to its edge, and that of the surroundings from there on.
+  Eigen::VectorXd
+  torsion_curve(const TorsionModel::Disk  &disk,
+                const std::vector<double> &angles)
+  {
+    const double R = disk.radius, R_core = std::min(R, disk.bonded_radius);
+    std::vector<std::size_t> order(angles.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](const auto i, const auto j) {
+      return std::abs(angles[i]) < std::abs(angles[j]);
+    });
+    AlongPath       core(disk, disk.phi_0), inside(disk, 0.), around(disk, 0.);
+    Eigen::VectorXd torque = Eigen::VectorXd::Zero(angles.size());
+    for (const std::size_t i : order)
+      {
+        const double angle = std::abs(angles[i]);
+        if (angle == 0.)
+          continue;
+        const double factor =
+          std::copysign(2. * M_PI / std::pow(angle, 3), angles[i]);
+        core.go_to(R_core * angle);
+        torque[i] = factor * core.integral;
+        if (R_core == R)
+          continue;
+        inside.go_to(R_core * angle);
+        around.go_to(R * angle);
+        torque[i] += factor * (around.integral - inside.integral);
+      }
+    return torque;
+  }
+
+
+
+  // Of states with the same machine angle a machine that turns on and on comes
+  // to the first one: it jumps from a maximum that exceeds all before to where
+  // the curve rises beyond it.
   CompliantMachineTorsion::CompliantMachineTorsion(const TorsionModel &bodies,
                                                    const double stiffness,
                                                    const double largest_angle)
@@ -171,70 +285,43 @@ namespace Debond
     , stiffness(stiffness)
     , largest_angle(largest_angle)
   {
-    find_limit_points();
-    find_jumps();
-  }
-
-
-
-  void
-  CompliantMachineTorsion::find_limit_points()
-  {
     constexpr unsigned int n    = 4000;
     const double           step = largest_angle / n;
-    std::array<double, 3>  last{{0., 0., machine_angle(step)}};
-    for (unsigned int i = 2; i <= n; ++i)
-      {
-        last = {{last[1], last[2], machine_angle(i * step)}};
-        for (const double sign : {-1., 1.})
-          if (sign * last[1] < sign * last[0] &&
-              sign * last[1] <= sign * last[2])
-            {
-              const auto minimum = boost::math::tools::brent_find_minima(
-                [&](const double theta) { return sign * machine_angle(theta); },
-                (i - 2) * step,
-                i * step,
-                std::numeric_limits<double>::digits / 2);
-              limit_points.push_back({minimum.first,
-                                      sign * minimum.second,
-                                      bodies.torque(minimum.first),
-                                      sign < 0.});
-            }
-      }
-  }
-
-
-
-  void
-  CompliantMachineTorsion::find_jumps()
-  {
+    std::vector<double>    samples;
+    for (unsigned int i = 0; i <= n; ++i)
+      samples.push_back(machine_angle(i * step));
     const auto stored_or_dissipated = [&](const double theta, const double at) {
       const auto state = bodies.state(theta);
       return 0.5 * stiffness * std::pow(at - theta, 2) + state.stored_energy +
              state.dissipation;
     };
-    double reached = 0.; // the largest machine angle so far
-    for (auto from = limit_points.begin(); from != limit_points.end(); ++from)
-      if (from->is_maximum && from->machine_angle > reached)
-        // the next branch that rises and leads high enough
-        for (auto to = from + 1; to != limit_points.end(); ++to)
-          {
-            const double end =
-              to + 1 == limit_points.end() ? largest_angle : (to + 1)->angle;
-            const double at = from->machine_angle;
-            if (to->is_maximum || machine_angle(end) < at)
-              continue;
-            const double after = angle_between(to->angle, end, at);
-            jumps.push_back({at,
-                             from->angle,
-                             after,
-                             from->torque,
-                             bodies.torque(after),
-                             stored_or_dissipated(from->angle, at) -
-                               stored_or_dissipated(after, at)});
-            reached = at;
-            break;
-          }
+    for (auto top = samples.begin();; ++top)
+      {
+        top = std::adjacent_find(top, samples.end(), std::greater<>());
+        if (top == samples.end())
+          return;
+        const double i       = top - samples.begin();
+        const auto   maximum = boost::math::tools::brent_find_minima(
+          [&](const double theta) { return -machine_angle(theta); },
+          std::max(0., i - 1.) * step,
+          (i + 1.) * step,
+          std::numeric_limits<double>::digits / 2);
+        const double before = maximum.first, at = -maximum.second;
+        top = std::find_if(top, samples.end(), [at](const double sample) {
+          return sample > at;
+        });
+        if (top == samples.end())
+          return;
+        const double end   = (top - samples.begin()) * step,
+                     after = angle_between(end - step, end, at);
+        jumps.push_back(
+          {at,
+           before,
+           after,
+           bodies.torque(before),
+           bodies.torque(after),
+           stored_or_dissipated(before, at) - stored_or_dissipated(after, at)});
+      }
   }
 
 

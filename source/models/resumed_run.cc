@@ -6,6 +6,7 @@
 #include <debond/support/ranks.h>
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -39,12 +40,9 @@ namespace Debond
     bool
     is_of_extension(const std::string &entry)
     {
-      const auto ends_with = [&](const std::string &end) {
-        return entry.size() > end.size() &&
-               entry.compare(entry.size() - end.size(), end.size(), end) == 0;
-      };
       return entry == "Load steps / Times" || entry == "Load steps / Steps" ||
-             (entry.rfind("Chuck / ", 0) == 0 && ends_with(" / Value"));
+             (boost::starts_with(entry, "Chuck / ") &&
+              boost::ends_with(entry, " / Value"));
     }
 
 
@@ -90,21 +88,19 @@ namespace Debond
 
 
 
-    /** A run that goes on stays in its directory: which of the overrides would
-     *  move it. */
-    std::string
-    what_moves(const std::vector<std::string> &overrides,
-               const ResultDirectory          &results)
+    /** A run that goes on stays in its directory. */
+    void
+    refuse_to_move(const std::vector<std::string> &overrides,
+                   const ResultDirectory          &results)
     {
       for (const std::string &text : overrides)
         if (const SceneEntry entry = read_override(text);
             entry.full_name() == "Output / Directory" &&
-            fs::weakly_canonical(ResultDirectory(entry.value).path()) !=
+            fs::weakly_canonical(entry.value + "/.") !=
               fs::weakly_canonical(results.path()))
-          return "--set '" + text +
-                 "' names another directory, but a run goes on in the "
-                 "directory of its results";
-      return "";
+          throw InputError("--resume '" + results.path() + "': --set '" + text +
+                           "' names another directory, but a run goes on in "
+                           "the directory of its results");
     }
   } // namespace
 
@@ -138,8 +134,7 @@ namespace Debond
     ResumedRun run;
     run.directory = std::make_shared<const ResultDirectory>(directory);
     const ResultDirectory &results = *run.directory;
-    const std::string      moves   = what_moves(overrides, results);
-    refuse_if(!moves.empty(), moves);
+    refuse_to_move(overrides, results);
     const bool is_finished =
       read_json(results.file("summary.json"))["converged"] == true;
     if (is_finished && scene_file.empty() && overrides.empty())

@@ -75,8 +75,8 @@ namespace Debond
         effort +=
           words(", {steps} steps, {newton_iterations} Newton iterations") +
           (n_warnings == 0 ? "" :
-           n_warnings == 1 ? ", 1 warning" :
-                             ", " + std::to_string(n_warnings) + " warnings");
+                             ", " + std::to_string(n_warnings) +
+                               (n_warnings == 1 ? " warning" : " warnings"));
       std::vector<std::string> lines{
         words("Largest torque {T_max_Nmm} N mm at {theta_max_deg} deg"),
         loads_in_words(end),
@@ -110,12 +110,9 @@ namespace Debond
       lines.erase(std::remove(lines.begin(), lines.end(), ""), lines.end());
       return lines;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** Those whose value is not the default, for the page of the run. */
     nlohmann::ordered_json
     changed_entries(const Scene &scene)
@@ -159,11 +156,11 @@ namespace Debond
       console.headline(scene.title);
     if (const std::string line = scene.values_of_the_paper(); !line.empty())
       console.headline(line);
-    const std::string file = scene.output.axes.rows_file();
-    for (const std::string other : {"torque.csv", "reactions.csv"})
-      if (other != file) // left by an earlier run with another curve
-        remove_file(directory.file(other));
-    write_file(directory.file(file), torque_table(rows));
+    // an earlier run may have had another curve
+    for (const std::string file : {"torque.csv", "reactions.csv"})
+      remove_file(directory.file(file));
+    write_file(directory.file(scene.output.axes.rows_file()),
+               torque_table(rows));
   }
 
 
@@ -200,15 +197,17 @@ namespace Debond
     if (!output.curve_at.empty())
       write_file(directory.file("curve_at.csv"),
                  torque_table(rows_at(fine, output.curve_at), true));
-    const bool  converged = summary["converged"];
-    std::string missed;
-    for (const double angle : output.curve_at)
-      if (rows_at(fine, {angle}).empty())
-        missed += (missed.empty() ? "" : ", ") + to_text(angle, 6);
-    if (converged && !missed.empty())
-      console.warn("curve at",
-                   "Output / Curve angles: the implant never turns through " +
-                     missed + " deg");
+    const bool converged = summary["converged"];
+    if (converged)
+      for (const double angle : output.curve_at)
+        if (rows_at(fine, {angle}).empty())
+          {
+            const std::string at = to_text(angle, 6) + " deg";
+            console.warn("curve at " + at,
+                         "Output / Curve angles: the implant never turns "
+                         "through " +
+                           at);
+          }
     const CurveComparison comparison(curve_of(fine, output.axes),
                                      reference,
                                      output.axes);
@@ -216,14 +215,14 @@ namespace Debond
       for (const std::string &text :
            comparison.warnings(output.reference_curve))
         console.warn(text, text);
-    summary["warnings"] = console.warnings;
     // of several ranks the largest; a rank that failed may be alone here
     double peak_memory = peak_memory_MB();
     if (converged)
       Ranks::take_largest(&peak_memory, 1);
-    summary["peak_memory_MB"]  = peak_memory;
-    summary["reference_files"] = files_of_reference;
-    summary["changed_entries"] = changed_entries(scene);
+    summary.update({{"warnings", console.warnings},
+                    {"peak_memory_MB", peak_memory},
+                    {"reference_files", files_of_reference},
+                    {"changed_entries", changed_entries(scene)}});
     for (const auto &[name, text] : provenance())
       summary["provenance"][name] = text;
     write_json(directory.file("summary.json"), summary);

@@ -139,7 +139,8 @@ namespace Debond
     , steps(choose_steps())
     , step_control(
         std::visit([](auto &chosen) -> StepControl & { return chosen; }, steps))
-    , state_checks(this->scene)
+    , state_checks(this->scene,
+                   [this](const Warning &warning) { warn(warning); })
   {
     // The step solver takes the first time from the scene. Nothing is solved
     // yet; a simulation can be loaded from a checkpoint from here on.
@@ -257,8 +258,7 @@ namespace Debond
           return row.share_open == 1.;
         }))
       warn({"no contact", "the bodies are never in contact"});
-    for (const Warning &warning : state_checks.judge_strains(coupled_system))
-      warn(warning);
+    state_checks.judge_strains(coupled_system);
     const LoadSteppingParameters &load_steps = scene.load_steps;
     if (solver.time() != load_steps.times.back() &&
         load_steps.path_ends_at_slip == 0.)
@@ -516,8 +516,6 @@ namespace Debond
     // Energies, jumps, penetration: a check that is not passed does not end the
     // run, but it is said, and counted in the row.
     state_checks.add(row, coupled_system, result.interface, reaction_defect);
-    for (const Warning &warning : state_checks.take_warnings())
-      warn(warning);
   }
 
 
@@ -538,6 +536,18 @@ namespace Debond
 
 
 
+  namespace
+  {
+    Chuck::Vector6
+    in_degrees(Chuck::Vector6 position)
+    {
+      position.tail<3>() *= 180. / M_PI;
+      return position;
+    }
+  } // namespace
+
+
+
   // <h3>A row of the torque curve</h3>
   //
   // All forces are what the chuck exerts on the implant. The torque T is the
@@ -549,14 +559,14 @@ namespace Debond
   {
     const Chuck            &chuck     = coupled_system.chuck;
     const ContactInterface &interface = coupled_system.interface;
-    const Chuck::Vector6   &q         = chuck.position();
+    const Chuck::Vector6    q         = in_degrees(chuck.position());
     const Chuck::Vector6    reaction  = coupled_system.chuck_resultant();
 
     // Angles are in radians inside, and in degrees in files.
     TorqueRow row;
     row.step       = all_rows.size();
     row.time       = solver.time();
-    row.angle_deg  = q[ChuckComponent::rotation_z] * 180. / M_PI;
+    row.angle_deg  = q[ChuckComponent::rotation_z];
     row.torque_Nmm = coupled_system.chuck_forces()[ChuckComponent::rotation_z];
     row.force_N =
       0. - reaction[ChuckComponent::translation_z]; // no negative zero
@@ -592,16 +602,13 @@ namespace Debond
     row.warnings            = state_checks.take_violations();
     // With a compliant machine the scene prescribes the place of the machine,
     // ahead of the chuck's by T / k or F / k.
-    const Chuck::Vector6 machine = chuck.machine_position();
-    row.machine_angle_deg   = machine[ChuckComponent::rotation_z] * 180. / M_PI;
-    row.machine_uz_mm       = machine[ChuckComponent::translation_z];
-    row.released_energy_Nmm = state_checks.released().total();
+    const Chuck::Vector6 machine = in_degrees(chuck.machine_position());
+    row.machine_angle_deg        = machine[ChuckComponent::rotation_z];
+    row.machine_uz_mm            = machine[ChuckComponent::translation_z];
+    row.released_energy_Nmm      = state_checks.released().total();
     // Force and moment about the chuck's centre C + u, and where it is.
-    for (unsigned int k = 0; k < 6; ++k)
-      {
-        row.chuck_reaction[k] = reaction[k];
-        row.chuck_position[k] = q[k] * (is_rotation(k) ? 180. / M_PI : 1.);
-      }
+    row.chuck_reaction = reaction;
+    row.chuck_position = q;
     if (row.step > 0 && scene.load_steps.draws_curve())
       set_rates(row);
     all_rows.push_back(row);
@@ -615,15 +622,12 @@ namespace Debond
   Simulation::set_rates(TorqueRow &row) const
   {
     const TorqueRow &before = all_rows.back();
-    row.rates_at_end[0]     = rates.forces[ChuckComponent::rotation_z];
-    for (unsigned int k = 0; k < 6; ++k)
-      {
-        row.rates_at_end[1 + k] = rates.reaction[k];
-        row.rates_at_end[7 + k] =
-          rates.position[k] * (is_rotation(k) ? 180. / M_PI : 1.);
-      }
+    row.rates_at_end << rates.forces[ChuckComponent::rotation_z],
+      rates.reaction, in_degrees(rates.position);
     if (step_control.step_shape() == StepControl::StepShape::parabola)
-      row.rates_at_begin = row.rates_of_parabola(before);
+      row.rates_at_begin =
+        2. * (row.curve() - before.curve()) / (row.time - before.time) -
+        row.rates_at_end;
     else if (step_control.step_shape() == StepControl::StepShape::cubic)
       row.rates_at_begin = before.rates_at_end;
   }

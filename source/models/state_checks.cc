@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace Debond
 {
@@ -204,8 +203,10 @@ namespace Debond
 
 
 
-  StateChecks::StateChecks(const ModelParameters &parameters)
+  StateChecks::StateChecks(const ModelParameters               &parameters,
+                           std::function<void(const Warning &)> warn)
     : parameters(parameters)
+    , warn(std::move(warn))
     , path(parameters.chuck)
   {}
 
@@ -216,8 +217,8 @@ namespace Debond
                     const std::string &check,
                     const std::string &text)
   {
-    found.push_back({check, "step " + std::to_string(step) + ": " + text});
     violated.insert(check);
+    warn({check, "step " + std::to_string(step) + ": " + text});
   }
 
 
@@ -268,10 +269,9 @@ namespace Debond
 
 
 
-  std::vector<Warning>
+  void
   StateChecks::judge_strains(const CoupledSystem &system)
   {
-    std::vector<Warning> warnings;
     for (const Side side : both_sides)
       {
         double &change = change_at_strains[side];
@@ -279,7 +279,7 @@ namespace Debond
           change =
             std::max(change, system.body[side]->change_at_large_strains());
         if (change > 0.02)
-          warnings.push_back(
+          warn(
             {Text() << "strain of the " << name_of(side),
              Text() << "large strains or rotations of the " << name_of(side)
                     << " would change its displacement by up to some "
@@ -287,7 +287,6 @@ namespace Debond
                     << " %, and forces perhaps by more: too much for Material "
                        "= linear; compare with neo-hookean"});
       }
-    return warnings;
   }
 
 

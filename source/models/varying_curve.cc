@@ -1,7 +1,6 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/foundation.h>
 #include <debond/models/simulation.h>
-#include <debond/models/torsion_curve.h>
 #include <debond/models/varying_curve.h>
 #include <debond/support/input_error.h>
 
@@ -105,7 +104,7 @@ namespace Debond
 
 
 
-  VaryingCurve::ByFoundation
+  std::pair<Eigen::VectorXd, double>
   VaryingCurve::by_foundation(const std::vector<SceneEntry> &changed,
                               const std::array<double, 2>   &compliance,
                               const std::vector<double>     &angles)

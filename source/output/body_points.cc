@@ -18,7 +18,7 @@ namespace Debond
     : space(body.mesh())
     , chuck(space.side() == Side::implant ? &chuck : nullptr)
     , v(body.full_displacement())
-    , sigma(body.vertex_stress(v))
+    , vertex_stress(body.vertex_stress(v))
   {}
 
 
@@ -36,7 +36,7 @@ namespace Debond
       }
     for (const unsigned int a : dealii::GeometryInfo<3>::vertex_indices())
       point.sigma += dealii::GeometryInfo<3>::d_linear_shape_function(unit, a) *
-                     sigma[cell.vertices[a]];
+                     vertex_stress[cell.vertices[a]];
     point.u      = point.v;
     point.stress = point.sigma;
     if (chuck != nullptr)
@@ -69,10 +69,8 @@ namespace Debond
       for (const unsigned int node : cell.nodes)
         points.push_back(as_point(space.reference_position(node)));
       dealii::BoundingBox<3> box(points);
-      double                 size = 0.;
-      for (unsigned int d = 0; d < 3; ++d)
-        size = std::max(size, box.side_length(d));
-      box.extend(0.05 * size);
+      const auto            &ends = box.get_boundary_points();
+      box.extend(0.05 * ends.first.distance(ends.second));
       return box;
     }
 
@@ -121,9 +119,10 @@ namespace Debond
 
 
   // Cells of several ranks: what none has stays at minus infinity.
-  BodyPoints::BodyPoints(const Body             &body,
-                         const Chuck            &chuck,
-                         const Eigen::Matrix3Xd &points)
+  Eigen::MatrixXd
+  values_at_points(const Body             &body,
+                   const Chuck            &chuck,
+                   const Eigen::Matrix3Xd &points)
   {
     constexpr double none  = -std::numeric_limits<double>::infinity();
     const BulkSpace &space = body.mesh();
@@ -153,16 +152,10 @@ namespace Debond
       dealii::ArrayView<const double>(values.data(), values.size()),
       Ranks::communicator(),
       dealii::ArrayView<double>(values.data(), values.size()));
-    displacement.resize(3, points.cols());
-    for (unsigned int p = 0; p < points.cols(); ++p)
-      {
-        if (values(0, p) == none)
-          values.col(p).setConstant(std::numeric_limits<double>::quiet_NaN());
-        else if (!body.bulk()) // a rigid body has forces and no stress
-          values.col(p).tail<9>().setConstant(
-            std::numeric_limits<double>::quiet_NaN());
-        displacement.col(p) = values.col(p).head<3>();
-        stress.emplace_back(Eigen::Map<Eigen::Matrix3d>(&values(3, p)));
-      }
+    constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+    values = (values.array() == none).select(nowhere, values).eval();
+    if (!body.bulk()) // a rigid body has forces and no stress
+      values.bottomRows<9>().setConstant(nowhere);
+    return values;
   }
 } // namespace Debond

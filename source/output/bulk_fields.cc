@@ -35,36 +35,9 @@ namespace Debond
     {
       return body->mesh().degree() > 1;
     }
-  } // namespace
 
 
 
-  // Quadratic elements are quadratic cells in the file, which has one piece:
-  // ParaView mixes up the points of curved cells in files of several. Of
-  // several ranks each draws its part of the bone, and the first one the
-  // implant.
-  BulkFields::BulkFields(const std::array<const Body *, 2> &bodies,
-                         const Chuck                       &chuck)
-    : DrawnPatches<3>(fields_of_bulk(bodies[0]->mesh().parameters().modulus !=
-                                     nullptr),
-                      std::any_of(bodies.begin(), bodies.end(), is_of_degree_2))
-    , draws_modulus(bodies[0]->mesh().parameters().modulus != nullptr)
-  {
-    const bool has_curves =
-      std::any_of(bodies.begin(), bodies.end(), is_of_degree_2);
-    for (const Body *const body : bodies)
-      if (body->mesh().side() == Side::bone || Ranks::is_first())
-        draw(*body,
-             chuck,
-             has_curves ?
-               2 :
-               n_pieces(body->surface().n_elements_across(), 24, 2, 8));
-  }
-
-
-
-  namespace
-  {
     // Vertices of cells, which of splines are no nodes.
     BoneTension
     tension_of(const BulkSpace                    &bone,
@@ -99,6 +72,30 @@ namespace Debond
 
 
 
+  // Quadratic elements are quadratic cells in the file, which has one piece:
+  // ParaView mixes up the points of curved cells in files of several. Of
+  // several ranks each draws its part of the bone, and the first one the
+  // implant.
+  BulkFields::BulkFields(const std::array<const Body *, 2> &bodies,
+                         const Chuck                       &chuck)
+    : DrawnPatches<3>(fields_of_bulk(bodies[0]->mesh().parameters().modulus !=
+                                     nullptr),
+                      std::any_of(bodies.begin(), bodies.end(), is_of_degree_2))
+    , draws_modulus(bodies[0]->mesh().parameters().modulus != nullptr)
+  {
+    const bool has_curves =
+      std::any_of(bodies.begin(), bodies.end(), is_of_degree_2);
+    for (const Body *const body : bodies)
+      if (body->mesh().side() == Side::bone || Ranks::is_first())
+        draw(*body,
+             chuck,
+             has_curves ?
+               2 :
+               n_pieces(body->surface().n_elements_across(), 24, 2, 8));
+  }
+
+
+
   // Trilinear elements at a curved surface have a curved face: of these alone
   // more points are drawn.
   void
@@ -115,7 +112,7 @@ namespace Debond
               (space.cells()[k].enriched && space.surface().degree() > 1)]
         .push_back(k);
     if (space.side() == Side::bone)
-      largest_tension = tension_of(space, fields.vertex_stress());
+      tension = tension_of(space, fields.vertex_stress);
     for (const bool is_curved : {false, true})
       {
         const unsigned int n = is_curved ? n_of_curved_cells : 1;
@@ -145,20 +142,5 @@ namespace Debond
             };
         });
       }
-  }
-
-
-
-  std::string
-  BulkFields::list_of_pieces(const std::vector<std::string> &pieces) const
-  {
-    Classic<std::ostringstream> text;
-    write_pvtu_record(text, pieces);
-    // which begins with a comment that holds the date
-    std::string list  = text.str();
-    const auto  begin = list.find("<!--"), end = list.find("-->");
-    if (begin != list.npos && end != list.npos)
-      list.erase(begin, end + 4 - begin);
-    return list;
   }
 } // namespace Debond

@@ -1,6 +1,7 @@
 #include <debond/output/checkpoint.h>
 #include <debond/output/result_files.h>
 #include <debond/support/number_text.h>
+#include <debond/support/serialization.h>
 #include <debond/support/written_files.h>
 
 #include <boost/crc.hpp>
@@ -31,15 +32,12 @@ namespace Debond
 
 
     std::string
-    text_of(const Checkpoint &checkpoint)
+    text_of(Checkpoint checkpoint)
     {
-      Classic<std::ostringstream> text;
-      text << "format " << CheckpointFiles::format << "\nprogram "
-           << DEBOND_VERSION << "\nstep " << checkpoint.step << "\nparameters "
-           << checkpoint.parameters.size() << "\nstate "
-           << checkpoint.state.size() << '\n'
-           << checkpoint.parameters << checkpoint.state;
-      return first_line + crc_line(text.str()) + text.str();
+      std::string text = "format " + std::to_string(CheckpointFiles::format) +
+                         "\nprogram " DEBOND_VERSION "\n";
+      SavingArchive(text) & checkpoint;
+      return first_line + crc_line(text) + text;
     }
 
 
@@ -59,14 +57,12 @@ namespace Debond
       Checkpoint                  content;
       Classic<std::istringstream> lines(text.substr(0, 1000));
       std::string                 word;
-      std::size_t                 n_parameters = 0, n_state = 0;
       lines >> word >> content.format >> word >> content.program;
-      if (content.format != std::to_string(CheckpointFiles::format))
-        return content;
-      lines >> word >> content.step >> word >> n_parameters >> word >> n_state;
-      const std::size_t end_of_lines = std::size_t(lines.tellg()) + 1;
-      content.parameters             = text.substr(end_of_lines, n_parameters);
-      content.state = text.substr(end_of_lines + n_parameters, n_state);
+      if (content.format == std::to_string(CheckpointFiles::format))
+        {
+          const std::string state = text.substr(std::size_t(lines.tellg()) + 1);
+          LoadingArchive(state) & content;
+        }
       return content;
     }
   } // namespace
@@ -113,7 +109,8 @@ namespace Debond
         ", format " + newest->format +
         ", and this is debond " DEBOND_VERSION ", format " +
         std::to_string(format) +
-        ": only the same program can go on with the run");
+        ": only the same program can go on with the run; --force begins "
+        "anew");
     return newest;
   }
 

@@ -24,12 +24,9 @@ namespace Debond
     {
       return std::abs(value) < 5e-5 ? 0. : value;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** "uz/mm" of chuck_uz_mm. */
     std::string
     in_head(std::string column)

@@ -9,13 +9,13 @@
 
 namespace Debond
 {
-  Rotation::Rotation(const ReferenceCurve &curve)
+  Rotation::Rotation(const ReferenceCurve &curve, const double part)
   {
     if (curve.empty())
       return;
     const auto [least, most] = std::minmax_element(curve.begin(), curve.end());
     const double range       = most->first - least->first;
-    tolerance                = 1e-9 * std::max(1., range);
+    tolerance = std::max(1e-9 * std::max(1., range), part * range);
     if (!(range > tolerance))
       return;
 
@@ -62,27 +62,6 @@ namespace Debond
       result = std::max(result, std::abs(point.*member));
     return result;
   }
-
-
-
-  namespace
-  {
-    /** By more than a twentieth of its range: angles are measured, too. */
-    bool
-    turns_back(const ReferenceCurve &curve)
-    {
-      double highest = curve.front().first, lowest = highest, falls = 0.,
-             rises = 0.;
-      for (const auto &[angle, torque] : curve)
-        {
-          highest = std::max(highest, angle);
-          lowest  = std::min(lowest, angle);
-          falls   = std::max(falls, highest - angle);
-          rises   = std::max(rises, angle - lowest);
-        }
-      return std::min(falls, rises) > 0.05 * (highest - lowest);
-    }
-  } // namespace
 
 
 
@@ -134,65 +113,43 @@ namespace Debond
               const CurveAxes      &axes,
               const bool            is_opposite)
     {
+      const double T_largest    = largest(measured, torque_of),
+                   T_max        = largest(computed, torque_of),
+                   end          = largest(computed, angle_of),
+                   measured_end = largest(measured, angle_of);
+      const std::string word = axes.load_word(), unit = axes.load_unit(),
+                        position = axes.position_word(),
+                        length   = axes.position_unit();
       std::vector<std::string> remarks;
-      const double             T_largest = largest(measured, torque_of),
-                   T_max                 = largest(computed, torque_of);
-      const double end                   = largest(computed, angle_of),
-                   measured_end          = largest(measured, angle_of);
-      const auto ask = [&](const bool is_so, const std::string &text) {
-        if (is_so)
-          remarks.push_back(text);
-      };
-      ask(!(T_largest > 0.01 * T_max && T_largest < 100. * T_max),
-          std::string("the largest ") + axes.load_word() +
-            " of the reference curve is " + to_text(T_largest, 4) +
-            " and that of the run " + to_text(T_max, 4) + " " +
-            axes.load_unit() + ": is it in " + axes.load_unit() + "?");
-      ask(measured_end < 0.05 * end,
-          "the reference curve ends at " + to_text(measured_end, 4) +
-            " and the run at " + to_text(end, 4) +
-            (is_rotation(axes.position) ? " degrees: is it in degrees?" :
-                                          " mm: is it in mm?"));
-      ask(is_opposite, CurveComparison::opposite_sign(axes));
-      ask(turns_back(measured),
-          std::string("the ") + axes.position_word() +
-            "s of the reference curve turn back: loading and unloading, or two "
-            "tests, are compared with one curve");
+      if (!(T_largest > 0.01 * T_max && T_largest < 100. * T_max))
+        remarks.push_back(
+          "the largest " + word + " of the reference curve is " +
+          to_text(T_largest, 4) + " and that of the run " + to_text(T_max, 4) +
+          " " + unit + ": is it in " + unit + "?");
+      if (measured_end < 0.05 * end)
+        remarks.push_back("the reference curve ends at " +
+                          to_text(measured_end, 4) + " and the run at " +
+                          to_text(end, 4) + " " + length + ": is it in " +
+                          length + "?");
+      if (is_opposite)
+        remarks.push_back(CurveComparison::opposite_sign(axes));
+      // by more than a twentieth of its range: angles are measured, too
+      if (Rotation(measured, 0.05).reverses)
+        remarks.push_back("the " + position +
+                          "s of the reference curve turn back: loading and "
+                          "unloading, or two tests, are compared with one "
+                          "curve");
       return remarks;
     }
 
 
 
-    /** Of two curves that have nothing in common. */
+    /** " from 0 to 10 deg". */
     std::string
-    ranges_of(const ReferenceCurve &computed,
-              const ReferenceCurve &measured,
-              const CurveAxes      &axes)
+    range_of(const ReferenceCurve &curve, const CurveAxes &axes)
     {
-      const auto range = [&](const ReferenceCurve &curve) {
-        return " from " + to_text(curve.front().first, 4) + " to " +
-               to_text(curve.back().first, 4) + " " + axes.position_unit();
-      };
-      return std::string("the run ") +
-             (is_rotation(axes.position) ? "turns" : "moves") +
-             range(computed) + ", and the curve" + range(measured);
-    }
-
-
-
-    /** Why there is nothing to compare; empty if there is. */
-    std::string
-    why_no_comparison(const ReferenceCurve &measured,
-                      const Rotation       &rotation,
-                      const CurveAxes      &axes)
-    {
-      return measured.empty() ?
-               "there is no curve" :
-             rotation.direction == 0. ?
-               std::string("nothing has ") +
-                 (axes.is_torsion() ? "rotated" : "moved") + " in the run" :
-             rotation.reverses ? "the run turns back" :
-                                 "";
+      return " from " + to_text(curve.front().first, 4) + " to " +
+             to_text(curve.back().first, 4) + " " + axes.position_unit();
     }
   } // namespace
 
@@ -208,16 +165,18 @@ namespace Debond
                          measured   = is_torsion ? all_measured :
                                                    main_branch(all_measured);
     const Rotation rotation(computed);
-    why_none = why_no_comparison(measured, rotation, axes);
-    is_said  = is_torsion && !measured.empty() && !why_none.empty();
+    const double   T_largest = largest(measured, torque_of);
+    why_none                 = measured.empty() ? "there is no curve" :
+                               rotation.direction == 0. ? "nothing has moved in the run" :
+                               rotation.reverses ? "the run turns back" :
+                               T_largest == 0.   ? "all of it is zero" :
+                                                   "";
     if (!why_none.empty())
       return;
     ReferenceCurve curve = computed; // in ascending order
     for (auto &[angle, torque] : curve)
       angle *= rotation.direction;
 
-    const double T_largest = largest(measured, torque_of),
-                 T_max     = largest(computed, torque_of);
     double       sum_mp = 0., sum = 0., products = 0., most = -1.;
     unsigned int rows_mp = 0, rows_at_rest = 0;
     for (const auto &[angle, T_measured] : measured)
@@ -226,8 +185,7 @@ namespace Debond
         // angles go from degrees to radians and back
         const double T = torque_at(curve, turned, rotation.tolerance);
         rows_at_rest += is_torsion && turned == 0.;
-        if (!((turned > 0. || !is_torsion) && T_largest > 0. &&
-              std::isfinite(T)))
+        if (!((turned > 0. || !is_torsion) && std::isfinite(T)))
           continue;
         const double difference = std::abs(T - T_measured);
         if (std::abs(T_measured) > 0.01 * T_largest)
@@ -250,20 +208,15 @@ namespace Debond
     if (rows_used > 0 && 2 * rows_used < n)
       remarks.push_back(
         "of " + std::to_string(n) + " rows of the reference curve only " +
-        std::to_string(rows_used) + " are compared: the run goes from " +
-        to_text(computed.front().first, 4) + " to " +
-        to_text(computed.back().first, 4) + " " + axes.position_unit());
+        std::to_string(rows_used) + " are compared: the run goes" +
+        range_of(computed, axes));
     if (rows_used == 0)
-      {
-        why_none = T_largest == 0. ?
-                     std::string("all ") + axes.load_word() + "s are zero" :
-                     ranges_of(computed, measured, axes);
-        return;
-      }
+      why_none = "the run goes" + range_of(computed, axes) + ", and the curve" +
+                 range_of(measured, axes);
     e_mp            = sum_mp / rows_mp; // 0 / 0 without one: undefined
-    e_rel           = sum / rows_used / T_max;
+    e_rel           = sum / rows_used / largest(computed, torque_of);
     difference_mean = sum / rows_used / T_largest;
-    difference_max  = most / T_largest;
+    difference_max  = rows_used == 0 ? undefined : most / T_largest;
   }
 
 
@@ -288,7 +241,7 @@ namespace Debond
     summary.update(members());
     if (!axes.is_torsion())
       summary["curve"]["difference_max_at"] = position_of_max;
-    if (rows_used == 0 && !is_said)
+    if (rows_used == 0)
       summary["remarks"].push_back(remark_begins + ("null, " + why_none));
     for (const std::string &remark : remarks)
       summary["remarks"].push_back(remark_begins + remark);
@@ -326,40 +279,27 @@ namespace Debond
 
 
 
-  CurveComparison
-  comparison_before_run(const Scene &scene, const ReferenceCurve &measured)
-  {
-    const CurveAxes   &axes  = scene.output.axes;
-    const unsigned int moved = axes.position;
-    const double       T_largest =
-      largest(measured, &ReferenceCurve::value_type::second);
-    ReferenceCurve expected;
-    for (const double value : scene.sampled_values(moved))
-      {
-        expected.emplace_back(value, std::copysign(T_largest, value));
-        if (value == 0.) // also -0
-          expected.back() = {0., 0.};
-      }
-    // of a moment only the direction is known
-    const double load = largest(expected, &ReferenceCurve::value_type::first);
-    if (scene.chuck.component[moved].loaded && load > 0.)
-      for (auto &[angle, torque] : expected)
-        angle *= largest(measured, &ReferenceCurve::value_type::first) / load;
-    return CurveComparison(expected, measured, axes);
-  }
-
-
-
+  // As if the implant turned as the scene prescribes, with a torque that
+  // resists it and is as large as the measured one.
   std::vector<std::string>
   doubts_of_reference(const Scene &scene)
   {
+    const CurveAxes     &axes = scene.output.axes;
     const std::string   &file = scene.output.reference_curve;
     const ReferenceCurve measured =
-      read_reference_curve(file,
-                           scene.output.reference_columns,
-                           scene.output.axes);
+      read_reference_curve(file, scene.output.reference_columns, axes);
     if (measured.empty())
       return {};
-    return comparison_before_run(scene, measured).warnings(file);
+    const double   T_largest = largest(measured, torque_of);
+    ReferenceCurve expected;
+    for (const double value : scene.sampled_values(axes.position))
+      expected.emplace_back(value,
+                            value == 0. ? 0. : std::copysign(T_largest, value));
+    // of a moment only the direction is known
+    const double load = largest(expected, angle_of);
+    if (scene.chuck.component[axes.position].loaded && load > 0.)
+      for (auto &[angle, torque] : expected)
+        angle *= largest(measured, angle_of) / load;
+    return CurveComparison(expected, measured, axes).warnings(file);
   }
 } // namespace Debond

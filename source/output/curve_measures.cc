@@ -29,22 +29,13 @@ namespace Debond
 
 
     /** The largest magnitude of a value in the rows. */
-    template <typename Value>
     double
-    largest_of(const Rows &rows, const Value &value_in)
+    largest_of(const Rows &rows, double TorqueRow::*const value)
     {
       double most = 0.;
       for (const TorqueRow &row : rows)
-        grow(most, std::abs(value_in(row)));
+        grow(most, std::abs(row.*value));
       return most;
-    }
-
-
-
-    double
-    torque_in(const TorqueRow &row)
-    {
-      return row.torque_Nmm;
     }
 
 
@@ -63,17 +54,18 @@ namespace Debond
     double
     last_angle_near_maximum(const Rows &rows)
     {
-      const double threshold = 0.999 * largest_of(rows, torque_in);
-      unsigned int i         = rows.size() - 1;
-      while (std::abs(rows[i].torque_Nmm) < threshold)
-        --i; // ends at the row of T_max
-      if (i + 1 == rows.size())
-        return rows[i].angle_deg;
-      const double sign  = (rows[i].torque_Nmm < 0. ? -1. : 1.);
-      const double above = sign * rows[i].torque_Nmm;
-      const double below = sign * rows[i + 1].torque_Nmm;
-      return rows[i].angle_deg + (above - threshold) / (above - below) *
-                                   (rows[i + 1].angle_deg - rows[i].angle_deg);
+      const double threshold = 0.999 * largest_of(rows, &TorqueRow::torque_Nmm);
+      const auto   next =
+        std::find_if(rows.rbegin(), rows.rend(), [&](const TorqueRow &row) {
+          return std::abs(row.torque_Nmm) >= threshold;
+        }).base();
+      const TorqueRow &last = *std::prev(next);
+      if (next == rows.end())
+        return last.angle_deg;
+      const double T = last.torque_Nmm;
+      return last.angle_deg + (T - std::copysign(threshold, T)) /
+                                (T - next->torque_Nmm) *
+                                (next->angle_deg - last.angle_deg);
     }
 
 
@@ -176,23 +168,14 @@ namespace Debond
                            const double    full_angle,
                            const double    W_adh)
     {
-      // rows at the same angle, of which the last one counts, are one
-      Rows turning;
-      for (auto i = rotation.first_row - 1; i < rows.size(); ++i)
-        {
-          if (!turning.empty() &&
-              std::abs(turning.back().angle_deg - rows[i].angle_deg) <=
-                rotation.tolerance)
-            turning.pop_back();
-          turning.push_back(rows[i]);
-        }
-      double change = 0.;
-      for (const unsigned int first : {1, 0})
+      const unsigned int begin  = rotation.first_row - 1;
+      double             change = 0.;
+      for (const unsigned int kept : {1, 0})
         {
           Rows fewer;
-          for (std::size_t i = 0; i < turning.size(); ++i)
-            if (i == 0 || i % 2 == first || i + 1 == turning.size())
-              fewer.push_back(turning[i]);
+          for (unsigned int i = begin; i < rows.size(); ++i)
+            if (i == begin || (i - begin) % 2 == kept || i + 1 == rows.size())
+              fewer.push_back(rows[i]);
           grow(change,
                std::abs(
                  Energies(fewer, rotation.direction, full_angle).W_adh() -
@@ -277,58 +260,9 @@ namespace Debond
         return rows[rotation.direction == 0. ? last : 0].pressure_MPa;
       return std::numeric_limits<double>::quiet_NaN();
     }
-  } // namespace
 
 
 
-  void
-  CurveSettings::take(const OutputParameters &output,
-                      const ReferenceCurve   &curve)
-  {
-    if (output.observed_bonding > 0.)
-      mean_phi_0 = output.observed_bonding;
-    if (output.full_sliding_angle > 0.)
-      full_sliding_angle_deg = output.full_sliding_angle;
-    reference = curve;
-    axes      = output.axes;
-  }
-
-
-
-  nlohmann::ordered_json
-  empty_summary()
-  {
-    // how it ended; the curve; energies; how far from a reference; how well the
-    // equations hold; the effort
-    const char *const names =
-      "converged reason warnings remarks "
-      "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm "
-      "theta_bonded_deg theta_debonding_deg "
-      "initial_stiffness_Nmm_per_rad pressure_MPa "
-      "pull_max_N pull_max_mm force_end_N "
-      "E_deb_Nmm E_fric_Nmm W_adh_Nmm w_adh_N_per_m w_adh_star_N_per_m "
-      "D_adh_Nmm D_adh_normal_Nmm D_adh_tangential_Nmm "
-      "w_normal_N_per_m w_tangential_N_per_m "
-      "dissipation_Nmm viscous_dissipation_Nmm "
-      "work_Nmm E_start_Nmm E_bulk_Nmm E_interface_Nmm "
-      "e_mp e_rel difference_max difference_max_deg difference_mean "
-      "reference_rows_used pressure_difference_rms slip_difference_rms "
-      "reference_angles_used "
-      "largest_energy_defect largest_reaction_defect "
-      "steps smallest_step newton_iterations dofs unknowns condensed_unknowns "
-      "wall_seconds peak_memory_MB";
-    nlohmann::ordered_json summary;
-    for (const std::string &name : split(names, " "))
-      summary[name] = std::numeric_limits<double>::quiet_NaN();
-    summary["reference_rows_used"] = summary["reference_angles_used"] = 0;
-    summary["remarks"] = nlohmann::ordered_json::array();
-    return summary;
-  }
-
-
-
-  namespace
-  {
     /** Work spent on the bond by its area, and the largest pull. */
     void
     measure_bond(const Rows          &rows,
@@ -343,10 +277,9 @@ namespace Debond
             1e3 * double(measures["D_adh_" + part + "_Nmm"]) / bonded;
       // less is what a force that is held at 0 is solved to
       double force = T_max / std::sqrt(settings.contact_area_mm2);
-      for (unsigned int k = 0; k < 3; ++k)
-        grow(force, largest_of(rows, [k](const TorqueRow &row) {
-               return row.chuck_reaction[k];
-             }));
+      for (const TorqueRow &row : rows)
+        for (unsigned int k = 0; k < 3; ++k)
+          grow(force, std::abs(row.chuck_reaction[k]));
       const auto pull =
         std::min_element(rows.begin(),
                          rows.end(),
@@ -432,6 +365,52 @@ namespace Debond
 
 
 
+  void
+  CurveSettings::take(const OutputParameters &output,
+                      const ReferenceCurve   &curve)
+  {
+    if (output.observed_bonding > 0.)
+      mean_phi_0 = output.observed_bonding;
+    if (output.full_sliding_angle > 0.)
+      full_sliding_angle_deg = output.full_sliding_angle;
+    reference = curve;
+    axes      = output.axes;
+  }
+
+
+
+  nlohmann::ordered_json
+  empty_summary()
+  {
+    // how it ended; the curve; energies; how far from a reference; how well the
+    // equations hold; the effort
+    const char *const names =
+      "converged reason warnings remarks "
+      "T_max_Nmm theta_max_deg theta_full_deg T_inf_Nmm "
+      "theta_bonded_deg theta_debonding_deg "
+      "initial_stiffness_Nmm_per_rad pressure_MPa "
+      "pull_max_N pull_max_mm force_end_N "
+      "E_deb_Nmm E_fric_Nmm W_adh_Nmm w_adh_N_per_m w_adh_star_N_per_m "
+      "D_adh_Nmm D_adh_normal_Nmm D_adh_tangential_Nmm "
+      "w_normal_N_per_m w_tangential_N_per_m "
+      "dissipation_Nmm viscous_dissipation_Nmm "
+      "work_Nmm E_start_Nmm E_bulk_Nmm E_interface_Nmm "
+      "e_mp e_rel difference_max difference_max_deg difference_mean "
+      "reference_rows_used pressure_difference_rms slip_difference_rms "
+      "reference_angles_used "
+      "largest_energy_defect largest_reaction_defect "
+      "steps smallest_step newton_iterations dofs unknowns condensed_unknowns "
+      "wall_seconds peak_memory_MB";
+    nlohmann::ordered_json summary;
+    for (const std::string &name : split(names, " "))
+      summary[name] = std::numeric_limits<double>::quiet_NaN();
+    summary["reference_rows_used"] = summary["reference_angles_used"] = 0;
+    summary["remarks"] = nlohmann::ordered_json::array();
+    return summary;
+  }
+
+
+
   nlohmann::ordered_json
   measure_torque_curve(const std::vector<TorqueRow> &steps,
                        const CurveSettings          &settings)
@@ -442,17 +421,14 @@ namespace Debond
 
     const Rows       rows = fine_curve(steps);
     const Rotation   rotation(curve_of(rows));
-    const double     T_max = largest_of(rows, torque_in);
+    const double     T_max = largest_of(rows, &TorqueRow::torque_Nmm);
     const TorqueRow &end   = rows.back();
     measures.update(
       {{"E_start_Nmm",
         steps.front().energy_bulk_Nmm + steps.front().energy_interface_Nmm},
-       {"largest_energy_defect",
-        largest_of(rows,
-                   [](const TorqueRow &row) { return row.energy_defect; })},
+       {"largest_energy_defect", largest_of(rows, &TorqueRow::energy_defect)},
        {"largest_reaction_defect",
-        largest_of(rows,
-                   [](const TorqueRow &row) { return row.reaction_defect; })},
+        largest_of(rows, &TorqueRow::reaction_defect)},
        {"T_max_Nmm", T_max},
        {"pressure_MPa",
         pressure_before_rotation(rows, rotation, settings.phase_times)},

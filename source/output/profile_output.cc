@@ -1,7 +1,7 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/output/profile_output.h>
-#include <debond/shapes/body_parameters.h>
 #include <debond/shapes/body_geometry.h>
+#include <debond/shapes/body_parameters.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/numerics/rtree.h>
@@ -22,25 +22,18 @@ namespace Debond
     for (const SlavePoint &point : interface.get_points())
       if (point.faces_implant)
         {
-          const auto &X           = point.X;
-          const auto  place       = implant.geometry().on_face(X);
-          const auto &trial       = point.trial;
-          const auto  traction    = interface.traction(point);
-          const auto  coefficient = interface.friction(point);
-          const auto  left = interface.get_law().left_by_each(trial.state);
-          points.push_back({{place[0],
-                             place[1],
-                             std::hypot(X[0], X[1]),
-                             traction.pressure,
-                             traction.tangential.norm(),
-                             trial.state.slip,
-                             coefficient.phi,
-                             coefficient.mu,
-                             double(interface.status(point)),
-                             point.JxW,
-                             left[0],
-                             left[1],
-                             traction.mode_deg()}});
+          const auto    &X           = point.X;
+          const auto     place       = implant.geometry().on_face(X);
+          const auto    &trial       = point.trial;
+          const auto     traction    = interface.traction(point);
+          const auto     coefficient = interface.friction(point);
+          const auto     left = interface.get_law().left_by_each(trial.state);
+          InterfacePoint values;
+          values << place, std::hypot(X[0], X[1]), traction.pressure,
+            traction.tangential.norm(), trial.state.slip, coefficient.phi,
+            coefficient.mu, double(interface.status(point)), point.JxW, left[0],
+            left[1], traction.mode_deg();
+          points.push_back(values);
         }
     return points;
   }
@@ -82,7 +75,7 @@ namespace Debond
           radius = std::max(radius, centre.distance(entry.first));
 
         const unsigned int n = nearest.size();
-        Eigen::MatrixXd    A(n, is_radial ? 3 : 6);
+        Eigen::MatrixXd    A(n, 6);
         Eigen::MatrixXd    b(n, 2);
         for (unsigned int i = 0; i < n; ++i)
           {
@@ -92,16 +85,12 @@ namespace Debond
             // smooth, and small but not zero at the farthest point
             const double weight =
               std::pow(1. - 0.95 * std::min(1., x * x + y * y), 2);
-            if (is_radial)
-              A.row(i) << 1., x, x * x;
-            else
-              A.row(i) << 1., x, y, x * x, x * y, y * y;
+            A.row(i) << 1., x, y, x * x, x * y, y * y;
             A.row(i) *= weight;
             b.row(i) << weight * neighbour.pressure, weight * neighbour.slip;
           }
-        // (coordinates are scaled: the normal equations are good enough)
-        const Eigen::MatrixXd c =
-          (A.transpose() * A).ldlt().solve(A.transpose() * b);
+        // of least norm: along a radius there is no y
+        const Eigen::MatrixXd c = A.completeOrthogonalDecomposition().solve(b);
         return c.row(0).transpose();
       }
 

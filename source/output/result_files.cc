@@ -127,19 +127,12 @@ namespace Debond
 
 
   std::string
-  rows_file(const std::string &directory)
-  {
-    const std::string forces = directory + "/reactions.csv";
-    return std::filesystem::exists(forces) ? forces : directory + "/torque.csv";
-  }
-
-
-
-  std::string
   finest_curve(const std::string &directory)
   {
-    const std::string fine = directory + "/curve.csv";
-    return std::filesystem::exists(fine) ? fine : rows_file(directory);
+    for (const std::string name : {"/curve.csv", "/reactions.csv"})
+      if (std::filesystem::exists(directory + name))
+        return directory + name;
+    return directory + "/torque.csv";
   }
 
 

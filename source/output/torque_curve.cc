@@ -22,20 +22,6 @@ namespace Debond
       });
       return values;
     }
-
-
-
-    /** What Rates are of. */
-    TorqueRow::Rates
-    curve_values(TorqueRow row)
-    {
-      TorqueRow::Rates values;
-      unsigned int     i = 0;
-      TorqueRow::for_each_curve(row, [&](const double value) {
-        values[i++] = value;
-      });
-      return values;
-    }
   } // namespace
 
 
@@ -75,19 +61,6 @@ namespace Debond
 
 
 
-  TorqueRow::Rates
-  TorqueRow::rates_of_parabola(const TorqueRow &before) const
-  {
-    const Rates begin = curve_values(before), end = curve_values(*this);
-    Rates       result;
-    for (unsigned int i = 0; i < result.size(); ++i)
-      result[i] =
-        2. * (end[i] - begin[i]) / (time - before.time) - rates_at_end[i];
-    return result;
-  }
-
-
-
   namespace
   {
     /** The row at the part @p s of the step between two, linear. */
@@ -108,20 +81,20 @@ namespace Debond
     TorqueRow
     row_between(const TorqueRow &begin, const TorqueRow &end, const double s)
     {
-      TorqueRow    row    = row_on_chord(begin, end, s);
-      const double h      = end.time - begin.time;
-      const auto   starts = curve_values(begin), ends = curve_values(end);
-      unsigned int i = 0;
-      TorqueRow::for_each_curve(row, [&](double &value) {
-        const double change = ends[i] - starts[i];
-        value               = starts[i] + s * change +
-                s * (1. - s) *
-                  ((1. - s) * (h * end.rates_at_begin[i] - change) -
-                   s * (h * end.rates_at_end[i] - change));
-        ++i;
-      });
-      row.angle_deg = row.chuck_position[5];
-      row.force_N   = 0. - row.chuck_reaction[2];
+      TorqueRow              row    = row_on_chord(begin, end, s);
+      const double           h      = end.time - begin.time;
+      const TorqueRow::Curve start  = begin.curve(),
+                             change = end.curve() - start,
+                             values =
+                               start + s * change +
+                               s * (1. - s) *
+                                 ((1. - s) * (h * end.rates_at_begin - change) -
+                                  s * (h * end.rates_at_end - change));
+      row.torque_Nmm     = values[0];
+      row.chuck_reaction = values.segment<6>(1);
+      row.chuck_position = values.tail<6>();
+      row.angle_deg      = row.chuck_position[5];
+      row.force_N        = 0. - row.chuck_reaction[2];
       return row;
     }
   } // namespace

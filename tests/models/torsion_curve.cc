@@ -3,7 +3,7 @@
 // bonded core.
 
 #include <debond/interface/modified_coulomb.h>
-#include <debond/models/torsion_curve.h>
+#include <debond/models/closed_forms.h>
 
 #include <limits>
 #include <vector>

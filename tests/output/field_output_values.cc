@@ -3,9 +3,6 @@
 // those of the closed form; a bonding pattern is as sharp as the elements; the
 // series names files and times; nothing depends on the date.
 
-#include <debond/bulk/body.h>
-#include <debond/bulk/chuck.h>
-#include <debond/interface/contact_interface.h>
 #include <debond/interface/friction_law.h>
 #include <debond/models/closed_forms.h>
 #include <debond/output/field_output.h>
@@ -19,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "checks.h"
+#include "driven_scene.h"
 #include "vtu_file.h"
 
 using namespace Debond;
@@ -61,82 +58,28 @@ vector_at(const std::vector<float> &values, const unsigned int i)
 
 
 
-/** Rigid bodies on the interface as the chuck has moved them. */
-struct Model
-{
-  InterfaceParameters   interface_parameters;
-  std::unique_ptr<Body> body_of_bone, body_of_implant;
-  Body                 &bone, &implant;
-  Chuck                 chuck;
-  ContactInterface      interface;
-
-  explicit Model(const std::array<BodyParameters, 2> &bodies,
-                 const BondingParameters &bonding = BondingParameters())
-    : interface_parameters(with(bonding))
-    , body_of_bone(make_body(bodies[0], Side::bone))
-    , body_of_implant(make_body(bodies[1], Side::implant))
-    , bone(*body_of_bone)
-    , implant(*body_of_implant)
-    , chuck(motion(), Eigen::Vector3d(0, 0, bodies[1].height), 2.5)
-    , interface(interface_parameters, bone.mesh(), implant.mesh())
-  {
-    interface.initialise(configuration());
-  }
-
-  static InterfaceParameters
-  with(const BondingParameters &bonding)
-  {
-    InterfaceParameters parameters;
-    parameters.bonding = bonding;
-    return parameters;
-  }
-
-  static ChuckParameters
-  motion()
-  {
-    ChuckParameters parameters;
-    parameters.component[2].value = "-0.0049 * t";
-    parameters.component[5].value = "t"; // degrees
-    return parameters;
-  }
-
-  InterfaceConfiguration
-  configuration() const
-  {
-    InterfaceConfiguration result;
-    result.chuck             = &chuck;
-    result.side[0].positions = bone.surface().control_points();
-    result.side[1].positions = implant.surface().control_points();
-    result.side[1].frame     = chuck.rotation();
-    for (unsigned int A = 0; A < result.side[1].positions.cols(); ++A)
-      result.side[1].positions.col(A) =
-        chuck.map(implant.surface().control_points().col(A),
-                  Eigen::Vector3d::Zero());
-    return result;
-  }
-
-  void
-  move_to(const double time)
-  {
-    chuck.prescribe(time);
-    interface.evaluate(configuration(), ContactPointMode());
-    interface.commit(configuration());
-  }
-};
-
-
-
-std::array<BodyParameters, 2>
-rigid_bodies()
-{
-  std::array<BodyParameters, 2> bodies;
-  bodies[0].cells = {{5, 5, 2}};
-  bodies[1].shape = BodyShape::coin;
-  bodies[1].cells = {{6, 6, 2}};
-  for (BodyParameters &body : bodies)
-    body.material = Material::rigid;
-  return bodies;
-}
+const char *const turned_coin = R"(
+subsection Bone
+  set Cells    = 5, 5, 2
+  set Material = rigid
+end
+subsection Implant
+  set Cells    = 6, 2
+  set Material = rigid
+end
+subsection Chuck
+  subsection Press
+    set Value = 0.0049 * t
+  end
+  subsection Rotation z
+    set Value = t
+  end
+end
+subsection Load steps
+  set Times = 0, 1
+  set Steps = 1
+end
+)";
 
 
 
@@ -299,21 +242,18 @@ check_interface(const std::string &vtu)
 /** A pattern of 1 and 0, and in one ring of elements a share, on 6 x 6
  *  elements, which are drawn as 16 x 16 pieces each. */
 void
-check_pattern(const BondingResolution resolution)
+check_pattern(const std::string &resolution)
 {
-  BondingParameters bonding;
-  bonding.pattern         = BondingPatternKind::disk;
-  bonding.bonded_fraction = 0.5;
-  bonding.resolution      = resolution;
-  Model            model(rigid_bodies(), bonding);
+  DrivenScene      driven(turned_coin,
+                     {"Interface/Bonding/Pattern=disk",
+                           "Interface/Bonding/Bonded fraction=0.5",
+                           "Interface/Bonding/Resolution=" + resolution});
   OutputParameters output;
   output.overwrite_other_results = true;
   output.directory               = "results/pattern";
   const ResultDirectory directory(output, "");
-  model.move_to(1);
-  FieldOutput(
-    directory, model.bone, model.implant, model.interface, model.chuck)
-    .write(1);
+  driven.advance();
+  FieldOutput(directory, driven.system).write(1);
   const std::string vtu = contents("results/pattern/interface-0000.vtu");
   const auto phi_0 = read_array(vtu, "phi_0"), phi = read_array(vtu, "phi");
   const auto mu = read_array(vtu, "mu"), slip = read_array(vtu, "slip_mm");
@@ -321,15 +261,14 @@ check_pattern(const BondingResolution resolution)
   // first and last drawn point of an element next to its first and last
   // quadrature point; with one value per element so are all others
   constexpr unsigned int n_drawn = 17 * 17, n_q = 5 * 5;
-  const auto            &points    = model.interface.get_points();
+  const auto            &points    = driven.system.interface.get_points();
   double                 deviation = 0;
   unsigned int           n_bonded = 0, n_free = 0;
   for (unsigned int i = 0; i < phi_0.size(); ++i)
     {
       const unsigned int in_element = i % n_drawn, first = i / n_drawn * n_q;
       const bool         is_last = in_element == n_drawn - 1;
-      if (resolution == BondingResolution::quadrature_point &&
-          in_element != 0 && !is_last)
+      if (resolution == "quadrature point" && in_element != 0 && !is_last)
         continue;
       const double expected = points.at(first + (is_last ? n_q - 1 : 0)).phi_0;
       deviation = std::max(deviation, std::abs(phi_0[i] - expected));
@@ -356,8 +295,8 @@ check_pattern(const BondingResolution resolution)
 
 
 
-int
-main()
+void
+test()
 {
   OutputParameters output;
   output.overwrite_other_results = true;
@@ -374,19 +313,18 @@ main()
     {
       output.directory = name;
       const ResultDirectory directory(output, "");
-      Model                 model(rigid_bodies());
-      FieldOutput           fields(
-        directory, model.bone, model.implant, model.interface, model.chuck);
+      DrivenScene           driven(turned_coin);
+      FieldOutput           fields(directory, driven.system);
       fields.write(0);
-      model.move_to(1);
+      driven.advance();
       fields.write(1. / 3.);
     }
 
   check_bulk(contents("results/fields/bulk-0001.vtu"));
   check_interface(contents("results/fields/interface-0001.vtu"));
 
-  check_pattern(BondingResolution::element);
-  check_pattern(BondingResolution::quadrature_point);
+  check_pattern("element");
+  check_pattern("quadrature point");
 
   bool equal = true, dated = false;
   for (const std::string &name : names)
@@ -396,9 +334,25 @@ main()
         equal && !text.empty() && text == contents("results/again/" + name);
       dated = dated || text.find("library on") != std::string::npos;
     }
-  std::cout << "a second run writes the same files: " << (equal ? "yes" : "NO")
-            << std::endl
-            << "no file holds the date: " << (dated ? "NO" : "yes") << std::endl
-            << contents("results/fields/bulk.pvd")
-            << contents("results/fields/interface.pvd");
+  report("a second run writes the same files", equal);
+  report("no file holds the date", !dated);
+  for (const std::string series : {"bulk", "interface", "points"})
+    {
+      const std::string list = contents("results/fields/" + series + ".pvd");
+      bool              all  = true;
+      for (const std::string part : {"timestep=\"0\"",
+                                     "timestep=\"0.333333333333\"",
+                                     "-0000.vtu\"",
+                                     "-0001.vtu\""})
+        all = all && list.find(part) != list.npos;
+      report(series + ".pvd: times and files", all);
+    }
+}
+
+
+
+int
+main()
+{
+  return run_test(&test);
 }

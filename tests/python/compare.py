@@ -33,7 +33,7 @@ warning: the largest torque of the reference curve is 0.022 and that of the run 
 """
 STUDY = HEAD + """0 % in the mean, 0 % at most, at 1 deg: variant-002, Bone / Cells = 4, 4, 2; Interface / Seed = 1
 6.8 % in the mean, 9.1 % at most, at 2 deg: variant-001, Bone / Cells = 3, 3, 2; Interface / Seed = 1
-not compared: nothing has rotated in the run: variant-004, Bone / Cells = 6, 6, 2; Interface / Seed = 1
+not compared: nothing has moved in the run: variant-004, Bone / Cells = 6, 6, 2; Interface / Seed = 1
 1 of 4 variants have no curve
 """
 BAND = "of 2 rows lie between the quantiles of 5 and 95 %\n"
@@ -144,7 +144,7 @@ def check_remarks():
     one = numpy.array([[2.0, 4], [20, 40]])
     for what, computed, measured, words in (
             ("opposite sign", up, one * [[1], [-1]], "have the opposite sign"),
-            ("radians", up, one / [[57.3], [1]], "ends at 0.06981 and the run at 10 degrees: is it in degrees?"),
+            ("radians", up, one / [[57.3], [1]], "ends at 0.06981 and the run at 10 deg: is it in deg?"),
             ("N um", up, one * [[1], [1000]], "is 4e+04 and that of the run 60 N mm: is it in N mm?"),
             ("N m", up, one / [[1], [1000]], "is 0.04 and that of the run 60 N mm: is it in N mm?"),
             ("unloading", up, numpy.array([[2.0, 4, 3], [20, 40, 30]]), "turn back: loading and unloading")):
@@ -154,8 +154,8 @@ def check_remarks():
     expect("angles with noise", [], CurveComparison(up, noisy).remarks)
     for what, computed, measured, words in (
             ("turns back", numpy.array([[0.0, 2, 1], [0, 1, 2]]), one, "the run turns back"),
-            ("rounding errors", numpy.array([[0.0, 1e-10, -1e-10], [0, 1, 2]]), one, "nothing has rotated in the run"),
-            ("elsewhere", up, one * [[-1], [1]], "the run turns from 0 to 10 deg, and the curve from -2 to -4 deg")):
+            ("rounding errors", numpy.array([[0.0, 1e-10, -1e-10], [0, 1, 2]]), one, "nothing has moved in the run"),
+            ("elsewhere", up, one * [[-1], [1]], "the run goes from 0 to 10 deg, and the curve from -2 to -4 deg")):
         found = CurveComparison(computed, measured)
         expect(what, (0, words, "not compared: " + words), (found.rows_used, found.why_none, found.text()))
 

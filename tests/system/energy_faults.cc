@@ -100,16 +100,16 @@ found(const std::string &degrees, const double fault)
   DrivenScene driven(coin,
                      {"Chuck/Rotation z/Value=" + degrees +
                       " * max(t - 1, 0)"});
-  StateChecks checks(driven.scene);
   std::string names;
+  StateChecks checks(driven.scene, [&names](const Warning &warning) {
+    if (names.find(warning.check) == std::string::npos)
+      names += " [" + warning.check + "]";
+  });
   const auto  add = [&] {
     InterfaceSummary summary = driven.system.interface.summarise();
     if (driven.time() > 2.)
       summary.energy -= fault * checks.energy().work();
     checks.add(1, driven.system, summary, 0.);
-    for (const Warning &warning : checks.take_warnings())
-      if (names.find(warning.check) == std::string::npos)
-        names += " [" + warning.check + "]";
   };
   add();
   do

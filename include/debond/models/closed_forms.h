@@ -3,6 +3,8 @@
 
 #include <debond/interface/modified_coulomb.h>
 
+#include <Eigen/Core>
+
 #include <limits>
 #include <memory>
 #include <vector>
@@ -39,6 +41,16 @@ namespace Debond
       {
         return friction->limit_after({phi_0, {slip}}, pressure, 0.);
       }
+      /** The path r theta after which a point has slid by @p slip [mm]. */
+      double
+      path(const double phi_0, const double slip = 0.) const
+      {
+        return slip + limit(phi_0, slip).value / stiffness;
+      }
+      /** The sliding distance, from one before on, at a path that is beyond
+       *  it [mm]. */
+      double
+      slip_at(double phi_0, double path, double before = 0.) const;
     };
     const Disk disk;
 
@@ -156,13 +168,25 @@ namespace Debond
   private:
     std::vector<double>
     kinks(double theta) const override;
-    /** The path r theta at which the sliding distance is @p slip [mm]. */
-    double
-    path(const double slip, const double phi_0) const
-    {
-      return slip + disk.limit(phi_0, slip).value / disk.stiffness;
-    }
   };
+
+
+
+  /**
+   * The torque [N mm] of RigidBodiesTorsion at many @p angles [rad] at once.
+   * The traction depends on the path s = r theta alone, so that one integral
+   * along it serves all of them,
+   *
+   *   T(theta) = 2 pi / |theta|^3 int_0^(R |theta|) s^2 t(s) ds,
+   *
+   * taken over the sliding distance g, s = g + mu(g) p / eps_t, which takes no
+   * iteration between the ends.
+   *
+   * @p disk must have a unique solution.
+   */
+  Eigen::VectorXd
+  torsion_curve(const TorsionModel::Disk  &disk,
+                const std::vector<double> &angles);
 
 
 
@@ -203,17 +227,6 @@ namespace Debond
       return theta + bodies.torque(theta) / stiffness;
     }
 
-    /** A maximum or a minimum of theta_m along the curve. */
-    struct LimitPoint
-    {
-      double angle         = 0; ///< theta [rad]
-      double machine_angle = 0; ///< theta_m [rad]
-      double torque        = 0; ///< [N mm]
-      bool   is_maximum    = false;
-    };
-    /** In the order of theta. */
-    std::vector<LimitPoint> limit_points;
-
     /** What a machine that turns on and on cannot follow. */
     struct Jump
     {
@@ -230,10 +243,6 @@ namespace Debond
     angle(double machine_angle) const;
 
   private:
-    void
-    find_limit_points();
-    void
-    find_jumps();
     /** On a branch that rises. */
     double
     angle_between(double begin, double end, double machine_angle) const;

@@ -38,9 +38,9 @@ namespace Debond
                        const std::string              &scene_file,
                        const std::vector<std::string> &overrides);
 
-  /** Whether @p scene goes on where the one with @p earlier completed parameters
-   *  ends: it has its times and steps, then further ones, and up to there the
-   *  same values of the chuck. */
+  /** Whether @p scene goes on where the one with @p earlier completed
+   * parameters ends: it has its times and steps, then further ones, and up to
+   * there the same values of the chuck. */
   bool
   extends(const Scene &scene, const std::string &earlier);
 

@@ -7,10 +7,10 @@
 #include <debond/system/energy_balance.h>
 
 #include <array>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace Debond
 {
@@ -21,8 +21,9 @@ namespace Debond
   class StateChecks
   {
   public:
-    /** Keeps a reference. */
-    explicit StateChecks(const ModelParameters &parameters);
+    /** Keeps a reference. @p warn is told of checks that are not passed. */
+    StateChecks(const ModelParameters               &parameters,
+                std::function<void(const Warning &)> warn);
 
     /** Notes what the chuck is to do in a step with friction from time @p from
      *  to time @p to, that is about to be accepted as a part of the planned
@@ -49,9 +50,9 @@ namespace Debond
         const InterfaceSummary &summary,
         double                  reaction_defect);
 
-    /** What is to be said at the end of the run, in its last state, of linear
-     *  bodies with large strains. */
-    std::vector<Warning>
+    /** Warns, at the end of the run, in its last state, of linear bodies with
+     *  large strains. */
+    void
     judge_strains(const CoupledSystem &system);
 
     const EnergyBalance &
@@ -63,12 +64,6 @@ namespace Debond
     released() const
     {
       return released_energy;
-    }
-    /** What was found since the last call. */
-    std::vector<Warning>
-    take_warnings()
-    {
-      return std::exchange(found, {});
     }
     /** How many checks were not passed by a state since the last call. */
     unsigned int
@@ -87,10 +82,7 @@ namespace Debond
         archive &displacement;
       archive &change_at_strains;
       if (Archive::is_loading::value) // between rows there are none
-        {
-          violated.clear();
-          found.clear();
-        }
+        violated.clear();
     }
 
   private:
@@ -99,16 +91,16 @@ namespace Debond
     void
     ask_for_strains(const CoupledSystem &system, double max_traction);
 
-    const ModelParameters &parameters;
-    EnergyBalance          energy_balance;
-    ReleasedEnergy         released_energy;
-    ChuckPath              path;
+    const ModelParameters                     &parameters;
+    const std::function<void(const Warning &)> warn;
+    EnergyBalance                              energy_balance;
+    ReleasedEnergy                             released_energy;
+    ChuckPath                                  path;
     /** Of the faces, by side, where ask_for_strains() last asked [mm]. */
     std::array<ControlNet, 2> judged_displacement;
     /** The largest Body::change_at_large_strains(), by side. */
     std::array<double, 2> change_at_strains{{0., 0.}};
     std::set<std::string> violated; ///< since the last row
-    std::vector<Warning>  found;    ///< since they were taken
   };
 } // namespace Debond
 #endif

@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
@@ -46,14 +47,9 @@ namespace Debond
     compliance_of_bodies(const std::vector<SceneEntry> &changed);
 
     /** The closed form `foundation`, whose bodies have this compliance: the
-     *  torque [N mm] at each of these angles [deg]. */
-    struct ByFoundation
-    {
-      Eigen::VectorXd torque;
-      double          force; ///< along z [N]
-    };
-    /** Throws EntryError. */
-    ByFoundation
+     *  torque [N mm] at each of these angles [deg], and the force along z [N].
+     *  Throws EntryError. */
+    std::pair<Eigen::VectorXd, double>
     by_foundation(const std::vector<SceneEntry> &changed,
                   const std::array<double, 2>   &compliance,
                   const std::vector<double>     &angles);

@@ -36,32 +36,23 @@ namespace Debond
        const dealii::Point<3>                  &unit,
        const Eigen::Ref<const Eigen::VectorXd> &N) const;
 
-    /** Cauchy stress at the vertices, in the frame [MPa]. */
-    const std::vector<Eigen::Matrix3d> &
-    vertex_stress() const
-    {
-      return sigma;
-    }
-
   private:
-    const BulkSpace                   &space;
-    const Chuck *const                 chuck; ///< null: the frame is in space
-    const Eigen::VectorXd              v;
-    const std::vector<Eigen::Matrix3d> sigma;
+    const BulkSpace      &space;
+    const Chuck *const    chuck; ///< null: the frame is in space
+    const Eigen::VectorXd v;
+
+  public:
+    /** Cauchy stress at the vertices, in the frame [MPa]. */
+    const std::vector<Eigen::Matrix3d> vertex_stress;
   };
 
-  /** What a body shows at points of its reference configuration, in space and
-   * in the trial state. */
-  struct BodyPoints
-  {
-    /** @p points [mm], a column each. Not a number where the body is not.
-     *  The stress is that of bulk.pvd. Collective. */
-    BodyPoints(const Body             &body,
-               const Chuck            &chuck,
-               const Eigen::Matrix3Xd &points);
-
-    Eigen::Matrix3Xd             displacement; ///< [mm]
-    std::vector<Eigen::Matrix3d> stress;       ///< Cauchy [MPa]
-  };
+  /** Displacement [mm] and Cauchy stress [MPa] of a body at @p points of its
+   *  reference configuration [mm], in space and in the trial state: a column of
+   *  3 and 9 values for each of them. Not a number where the body is not. The
+   *  stress is that of bulk.pvd. Collective. */
+  Eigen::MatrixXd
+  values_at_points(const Body             &body,
+                   const Chuck            &chuck,
+                   const Eigen::Matrix3Xd &points);
 } // namespace Debond
 #endif

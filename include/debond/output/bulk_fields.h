@@ -36,23 +36,14 @@ namespace Debond
     /** @p bodies: bone, implant. Collective. */
     BulkFields(const std::array<const Body *, 2> &bodies, const Chuck &chuck);
 
-    /** The text of a file that joins those of several ranks, given by their
-     *  names. */
-    std::string
-    list_of_pieces(const std::vector<std::string> &pieces) const;
     /** Zero of a rigid bone; its time is not set. */
-    const BoneTension &
-    tension() const
-    {
-      return largest_tension;
-    }
+    BoneTension tension;
 
   private:
     void
     draw(const Body &body, const Chuck &chuck, unsigned int n_of_curved_cells);
 
-    const bool  draws_modulus;
-    BoneTension largest_tension;
+    const bool draws_modulus;
   };
 } // namespace Debond
 #endif

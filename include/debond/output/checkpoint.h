@@ -19,6 +19,14 @@ namespace Debond
     std::string  parameters; ///< completed parameters of the scene
     std::string  state;      ///< an archive, see serialization.h
     std::string  format = "", program = ""; ///< versions of what wrote it
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &step &parameters &state;
+    }
   };
 
   /**
@@ -27,14 +35,14 @@ namespace Debond
    * name only when all of it is on the disk.
    *
    * Its first lines are text: `debond checkpoint`, the CRC-32 of everything
-   * after that line, version of the format, version of the program, step,
-   * number of bytes of the parameters and of the state, which follow.
+   * after that line, version of the format, version of the program.
+   * An archive follows.
    */
   class CheckpointFiles
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 12;
+    static constexpr unsigned int format = 13;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 

@@ -22,7 +22,8 @@ namespace Debond
     bool         reverses  = false;
     unsigned int first_row = 0; ///< the first one with another angle
 
-    explicit Rotation(const ReferenceCurve &curve);
+    /** What goes back by @p part of the range of all angles is none. */
+    explicit Rotation(const ReferenceCurve &curve, double part = 0.);
   };
 
   /** Torque at an angle, linear between the points of a curve whose angles do
@@ -65,9 +66,6 @@ namespace Debond
     /** What may be wrong with the measured curve: its units, its sign. */
     std::vector<std::string> remarks;
     std::string              why_none; ///< no row is used; else empty
-    /** The summary of a torque curve that does not turn on says so by itself.
-     */
-    bool is_said = false;
 
     /** The remark on torques that do not resist the rotation. */
     static std::string
@@ -98,13 +96,7 @@ namespace Debond
     text() const;
   };
 
-  /** What can be said of a measured curve before the scene is run: as if the
-   *  implant turned as the scene prescribes, with a torque that resists it and
-   *  is as large as the measured one. Only `remarks` and `why_none` count. */
-  CurveComparison
-  comparison_before_run(const Scene &scene, const ReferenceCurve &measured);
-
-  /** The same of `Output / Reference curve`, as warnings. */
+  /** Warnings about the `Output / Reference curve` before the scene is run. */
   std::vector<std::string>
   doubts_of_reference(const Scene &scene);
 } // namespace Debond

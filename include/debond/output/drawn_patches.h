@@ -26,7 +26,7 @@ namespace Debond
    *  fields, or, with @p dim 0, single points. These are no finite element
    *  functions, of which DataOut could be told. */
   template <int dim>
-  class DrawnPatches : public dealii::DataOutInterface<dim, 3>
+  class DrawnPatches
   {
   public:
     explicit DrawnPatches(const FieldNames &fields,
@@ -43,11 +43,9 @@ namespace Debond
                                          component_is_part_of_tensor);
           names.insert(names.end(), n, name);
         }
-      dealii::DataOutBase::VtkFlags flags;
       flags.print_date_and_time      = false;
       flags.compression_level        = flags.best_speed;
       flags.write_higher_order_cells = has_curves;
-      this->set_flags(flags);
     }
 
     /** Adds patches of @p n pieces in each direction. draw(k) is a function for
@@ -74,7 +72,18 @@ namespace Debond
     vtu() const
     {
       Classic<std::ostringstream> text;
-      this->write_vtu(text);
+      dealii::DataOutBase::write_vtu(patches, names, ranges, flags, text);
+      return text.str();
+    }
+
+    /** The text of a file that joins those of several ranks, given by their
+     *  names. */
+    std::string
+    pvtu(const std::vector<std::string> &pieces) const
+    {
+      Classic<std::ostringstream> text;
+      dealii::DataOutBase::write_pvtu_record(
+        text, pieces, names, ranges, flags);
       return text.str();
     }
 
@@ -109,25 +118,10 @@ namespace Debond
         }
     }
 
-    const std::vector<Patch> &
-    get_patches() const override
-    {
-      return patches;
-    }
-    std::vector<std::string>
-    get_dataset_names() const override
-    {
-      return names;
-    }
-    std::vector<Range>
-    get_nonscalar_data_ranges() const override
-    {
-      return ranges;
-    }
-
-    std::vector<Patch>       patches;
-    std::vector<std::string> names;
-    std::vector<Range>       ranges; ///< vectors and tensors
+    std::vector<Patch>            patches;
+    std::vector<std::string>      names;
+    std::vector<Range>            ranges; ///< vectors and tensors
+    dealii::DataOutBase::VtkFlags flags;
   };
 
   /** Appends the values of a vector or tensor, for DrawnPatches. */

@@ -6,12 +6,14 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Debond
 {
-  class ContactInterface;
+  class CoupledSystem;
   class ResultDirectory;
 
   /**
@@ -42,22 +44,17 @@ namespace Debond
   class FieldOutput
   {
   public:
-    /** Keeps references to everything. */
-    FieldOutput(const ResultDirectory  &directory,
-                const Body             &bone,
-                const Body             &implant,
-                const ContactInterface &interface,
-                const Chuck            &chuck);
+    /** Keeps references. */
+    FieldOutput(const ResultDirectory &directory, const CoupledSystem &system)
+      : directory(directory)
+      , system(system)
+    {}
 
     /** Writes the accepted state as the next file of each series. Throws
      * WriteError if that is impossible. Collective. */
     void
     write(double time);
 
-    /** For a run that goes on from a checkpoint: forgets what was written after
-     *  it. Returns a warning if a file of before is missing, or nothing. */
-    std::string
-    forget_later_files();
     /** Waits until all files are on the disk. Throws WriteError. */
     void
     put_on_disk();
@@ -73,36 +70,19 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &times &n_pieces &largest_tension;
+      archive &files &largest_tension;
+      if (Archive::is_loading::value)
+        n_on_disk = files["bulk"].size();
     }
 
   private:
-    void
-    write_series() const;
-    std::string
-    file_name(const std::string &series, unsigned int number) const;
-
-    const ResultDirectory            &directory;
-    const std::array<const Body *, 2> bodies; ///< bone, implant
-    const ContactInterface           &interface;
-    const Chuck                      &chuck;
-    BoneTension                       largest_tension;
-    std::vector<double>               times;         ///< of the files
-    std::vector<unsigned int>         n_pieces;      ///< of the bulk in each
-    std::size_t                       n_on_disk = 0; ///< files of each series
+    const ResultDirectory &directory;
+    const CoupledSystem   &system;
+    BoneTension            largest_tension;
+    /** Times and names, by series. */
+    std::map<std::string, std::vector<std::pair<double, std::string>>> files;
+    std::size_t n_on_disk = 0; ///< of each series
   };
 
-  /** The text of a VTU file with the fields of the interface in the trial state
-   *  on the surface of the body @p slave; class FieldOutput says which, and how
-   *  they are interpolated. */
-  std::string
-  interface_vtu(const Body             &slave,
-                const ContactInterface &interface,
-                const Chuck            &chuck);
-  /** The same of the quadrature points. */
-  std::string
-  points_vtu(const Body             &slave,
-             const ContactInterface &interface,
-             const Chuck            &chuck);
 } // namespace Debond
 #endif

@@ -3,9 +3,9 @@
 
 #include <debond/scene/reference_data.h>
 
+#include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -19,8 +19,9 @@ namespace Debond
    *  magnitude of the tangential traction [MPa], accumulated sliding distance
    *  g_s [mm], bonding state phi, friction coefficient mu, PointStatus, area
    *  that the point stands for [mm^2], the parts of the bond that opening and
-   *  slip have left (InterfaceLaw::left_by_each()), PointTraction::mode_deg() [deg]. */
-  using InterfacePoint = std::array<double, 13>;
+   *  slip have left (InterfaceLaw::left_by_each()), PointTraction::mode_deg()
+   * [deg]. */
+  using InterfacePoint = Eigen::Matrix<double, 13, 1>;
 
   /** Their names. */
   constexpr const char *interface_columns =

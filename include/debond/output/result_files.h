@@ -62,13 +62,8 @@ namespace Debond
   std::optional<std::string>
   parameters_in(const std::string &directory);
 
-  /** The file in a directory of results with the rows of a run of any scene,
-   *  see CurveAxes::rows_file(). */
-  std::string
-  rows_file(const std::string &directory);
-
   /** The file in a directory of results with the finest curve: curve.csv, or
-   *  rows_file() where there is none. */
+   *  that of the rows where there is none, see CurveAxes::rows_file(). */
   std::string
   finest_curve(const std::string &directory);
 

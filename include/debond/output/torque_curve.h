@@ -30,12 +30,12 @@ namespace Debond
       0; ///< minus the axial force along +z: positive in compression
     double pressure_MPa = 0; ///< force_N / reference area of the contact face;
                              ///< of implants in a bore the area mean
-    double       phi_mean    = 0;
-    double       share_stick = 0, share_slip = 0, share_open = 0;
-    unsigned int newton_iterations = 0; ///< summed over sub-steps
-    double       energy_defect     = 0;
-    std::array<double, 6>
-      chuck_reaction{}; ///< Fx, Fy, Fz [N], Mx, My, Mz [N mm] about C + u
+    double         phi_mean    = 0;
+    double         share_stick = 0, share_slip = 0, share_open = 0;
+    unsigned int   newton_iterations = 0; ///< summed over sub-steps
+    double         energy_defect     = 0;
+    Chuck::Vector6 chuck_reaction =
+      Chuck::Vector6::Zero(); ///< Fx, Fy, Fz [N], Mx, My, Mz [N mm] about C + u
     // further columns
     double work_Nmm = 0, energy_bulk_Nmm = 0, energy_interface_Nmm = 0,
            dissipation_Nmm = 0, adhesive_work_Nmm = 0;
@@ -44,8 +44,8 @@ namespace Debond
     /** Contact resultant against reaction of the implant's top, relative. */
     double reaction_defect = 0;
     /** Chuck position: u [mm], rotations x, y, z [deg]. */
-    std::array<double, 6> chuck_position{};
-    double                viscous_work_Nmm = 0; ///< part of dissipation_Nmm
+    Chuck::Vector6 chuck_position   = Chuck::Vector6::Zero();
+    double         viscous_work_Nmm = 0; ///< part of dissipation_Nmm
     /** Number of checks of accepted states that this row did not pass. */
     unsigned int warnings = 0;
     /** Of the machine about z: what the scene prescribes if the machine is
@@ -61,38 +61,25 @@ namespace Debond
     double machine_uz_mm = 0;
 
     /** What the curve between rows is drawn of: torque [N mm], chuck_reaction
-     *  and chuck_position, by the unit of time. */
-    using Rates = std::array<double, 13>;
-    /** At the beginning and at the end of the step that ends with this row;
-     *  NaN at the beginning: it is drawn as a straight line. */
-    Rates rates_at_begin, rates_at_end;
-
-    TorqueRow()
+     *  and chuck_position. */
+    using Curve = Eigen::Matrix<double, 13, 1>;
+    Curve
+    curve() const
     {
-      rates_at_begin.fill(std::numeric_limits<double>::quiet_NaN());
-      rates_at_end = rates_at_begin;
+      return (Curve() << torque_Nmm, chuck_reaction, chuck_position).finished();
     }
+    /** Its rates, by the unit of time, at the beginning and at the end of the
+     *  step that ends with this row; NaN at the beginning: it is drawn as a
+     *  straight line. */
+    Curve rates_at_begin =
+            Curve::Constant(std::numeric_limits<double>::quiet_NaN()),
+          rates_at_end = rates_at_begin;
+
     bool
     is_curved() const
     {
       return !std::isnan(rates_at_begin[0]);
     }
-    /** At the beginning of the step, of the parabola from @p before that has
-     * the rates at the end. */
-    Rates
-    rates_of_parabola(const TorqueRow &before) const;
-    /** Calls visit(value) for what Rates are of. */
-    template <typename Row, typename Visitor>
-    static void
-    for_each_curve(Row &row, const Visitor &visit)
-    {
-      visit(row.torque_Nmm);
-      for (auto &value : row.chuck_reaction)
-        visit(value);
-      for (auto &value : row.chuck_position)
-        visit(value);
-    }
-
     /** Calls visit(name, value) for the columns of torque.csv in their order.
      *  The first eighteen are fixed: users' scripts count on them. */
     template <typename Visitor>

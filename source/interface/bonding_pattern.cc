@@ -4,7 +4,10 @@
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/number_text.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 // phi_0 of Eq. (13) on the contact face of the implant, in parts: its elements,
@@ -162,31 +165,21 @@ namespace Debond
     double best = 0.;
     for (const Part &part : all_parts)
       best = std::max(best, part.phi_0);
-    std::vector<bool> to_visit(all_parts.size());
+    const auto is_bonded = [&](const unsigned int part) {
+      return best > 0. && all_parts[part].phi_0 >= 0.5 * best;
+    };
+    boost::disjoint_sets_with_storage<> patches(all_parts.size());
     for (unsigned int p = 0; p < all_parts.size(); ++p)
-      // half of the best: the border at which a blurred edge is as much in as
-      // out
-      to_visit[p] = best > 0. && all_parts[p].phi_0 >= 0.5 * best;
-    for (unsigned int seed = 0; seed < all_parts.size(); ++seed)
-      {
-        std::vector<unsigned int> patch;
-        const auto                visit = [&](const unsigned int part) {
-          if (!to_visit[part])
-            return;
-          to_visit[part] = false;
-          patch.push_back(part);
-        };
-        visit(seed);
-        double area = 0.;
-        for (unsigned int k = 0; k < patch.size(); ++k)
-          {
-            area += all_parts[patch[k]].phi_0 * all_parts[patch[k]].area;
-            for (const unsigned int beside : parts_beside(patch[k]))
-              visit(beside);
-          }
-        summary.patches += patch.empty() ? 0 : 1;
-        summary.largest_patch = std::max(summary.largest_patch, area);
-      }
+      for (const unsigned int beside : parts_beside(p))
+        if (is_bonded(p) && is_bonded(beside))
+          patches.union_set(p, beside);
+    std::map<std::size_t, double> areas;
+    for (unsigned int p = 0; p < all_parts.size(); ++p)
+      if (is_bonded(p))
+        areas[patches.find_set(p)] += all_parts[p].phi_0 * all_parts[p].area;
+    summary.patches = areas.size();
+    for (const auto &[patch, area] : areas)
+      summary.largest_patch = std::max(summary.largest_patch, area);
   }
 
 

@@ -6,6 +6,7 @@
 #include <boost/crc.hpp>
 #include <boost/endian/conversion.hpp>
 
+#include <Eigen/SparseCore>
 #include <png.h>
 
 #include <algorithm>
@@ -18,24 +19,20 @@ namespace Debond
 {
   namespace
   {
-    /** For each of @p n_fine pixels the one or two of @p n_coarse that it lies
-     *  in, and the share of the area of those that it makes up. */
-    std::vector<std::vector<std::pair<unsigned int, double>>>
-    overlaps(const unsigned int n_fine, const unsigned int n_coarse)
+    /** The matrix that makes means over @p n_coarse pixels of equal size of
+     *  @p n_fine: each of these belongs to one, or in parts to two. */
+    Eigen::SparseMatrix<float, Eigen::RowMajor>
+    means(const unsigned int n_fine, const unsigned int n_coarse)
     {
-      std::vector<std::vector<std::pair<unsigned int, double>>> result(n_fine);
-      // The share of pixel i = [i, i + 1] in [k size, (k + 1) size], both in
-      // widths of a fine pixel. Means over areas keep the mean of the whole
-      // picture, and so the bonded share.
+      Eigen::SparseMatrix<float, Eigen::RowMajor> result(n_coarse, n_fine);
       const double size = double(n_fine) / n_coarse; // of a coarse pixel
-      for (unsigned int i = 0; i < n_fine; ++i)
-        for (auto k = static_cast<unsigned int>(i / size);
-             k < n_coarse && k * size < i + 1;
-             ++k)
-          result[i].emplace_back(k,
-                                 (std::min((k + 1) * size, i + 1.) -
-                                  std::max(k * size, double(i))) /
-                                   size);
+      for (unsigned int k = 0; k < n_coarse; ++k)
+        for (auto i = static_cast<unsigned int>(k * size);
+             i < n_fine && i < (k + 1) * size;
+             ++i)
+          result.insert(k, i) =
+            (std::min((k + 1) * size, i + 1.) - std::max(k * size, double(i))) /
+            size;
       return result;
     }
   } // namespace
@@ -74,23 +71,15 @@ namespace Debond
     const unsigned int n = (std::max(width, height) + side - 1) / side;
     if (n <= 1)
       return *this;
-    // Blocks of equal size in the picture, not in pixels: a pixel on the border
-    // of two belongs to both in parts.
-    //
-    // Sums in double: a picture has up to 1e8 pixels, and float has 7 digits.
-    GreyImage result;
-    result.width                = (width + n - 1) / n;
-    result.height               = (height + n - 1) / n;
-    const auto          columns = overlaps(width, result.width);
-    const auto          rows    = overlaps(height, result.height);
-    std::vector<double> sums(std::size_t(result.width) * result.height);
-    for (unsigned int j = 0; j < height; ++j)
-      for (unsigned int i = 0; i < width; ++i)
-        for (const auto &[row, row_share] : rows[j])
-          for (const auto &[column, column_share] : columns[i])
-            sums[std::size_t(row) * result.width + column] +=
-              row_share * column_share * levels[std::size_t(j) * width + i];
-    result.levels.assign(sums.begin(), sums.end());
+    // blocks of equal size in the picture, not in pixels
+    using Levels =
+      Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    GreyImage result{(width + n - 1) / n, (height + n - 1) / n, {}};
+    result.levels.resize(std::size_t(result.width) * result.height);
+    const Levels rows = means(height, result.height) *
+                        Eigen::Map<const Levels>(levels.data(), height, width);
+    Eigen::Map<Levels>(result.levels.data(), result.height, result.width) =
+      rows * means(width, result.width).transpose();
     return result;
   }
 

@@ -168,14 +168,23 @@ namespace Debond
                            const double    full_angle,
                            const double    W_adh)
     {
-      const unsigned int begin  = rotation.first_row - 1;
-      double             change = 0.;
-      for (const unsigned int kept : {1, 0})
+      // rows at the same angle, of which the last one counts, are one
+      Rows turning;
+      for (auto i = rotation.first_row - 1; i < rows.size(); ++i)
+        {
+          if (!turning.empty() &&
+              std::abs(turning.back().angle_deg - rows[i].angle_deg) <=
+                rotation.tolerance)
+            turning.pop_back();
+          turning.push_back(rows[i]);
+        }
+      double change = 0.;
+      for (const unsigned int first : {1, 0})
         {
           Rows fewer;
-          for (unsigned int i = begin; i < rows.size(); ++i)
-            if (i == begin || (i - begin) % 2 == kept || i + 1 == rows.size())
-              fewer.push_back(rows[i]);
+          for (std::size_t i = 0; i < turning.size(); ++i)
+            if (i == 0 || i % 2 == first || i + 1 == turning.size())
+              fewer.push_back(turning[i]);
           grow(change,
                std::abs(
                  Energies(fewer, rotation.direction, full_angle).W_adh() -

@@ -94,7 +94,7 @@ check_modulus(BodyParameters bone)
   bone.modulus_expression = "18000 * (1 + 0.05 * x - 0.01 * y * z)";
   bone.read_modulus(1.);
   const BulkSpace         mesh(bone, Side::bone);
-  const EnrichedCells     cells(mesh, {});
+  const EnrichedCells     cells(mesh, NeoHookean());
   const dealii::QGauss<3> quadrature(cells.n_along());
   double                  difference = 0.;
   for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)

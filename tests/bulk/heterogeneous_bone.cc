@@ -303,11 +303,11 @@ check_voxels()
   for (const unsigned int n : {16, 4})
     {
       const BulkSpace     mesh(bone_of(of_place, "", n), Side::bone);
-      const EnrichedCells by_place(mesh, {});
+      const EnrichedCells by_place(mesh, NeoHookean());
       for (const std::string voxels : {"voxels.csv", "voxels.mhd"})
         {
           const BulkSpace other(bone_of("40 * grey", voxels, n), Side::bone);
-          const EnrichedCells by_voxels(other, {});
+          const EnrichedCells by_voxels(other, NeoHookean());
           const BulkSpace     smooth(
             bone_of("40 * (100 + 10 * (4 * x + 7.5) + 3 * (4 * y + 7.5) + 5 * "
                         "(4 * z + 11.5))",

@@ -181,21 +181,6 @@ namespace Debond
 
 
 
-  std::vector<bool>
-  faced_bone_control_points(const NurbsSurface            &bone,
-                            const std::vector<SlavePoint> &points,
-                            const Side                     slave)
-  {
-    std::vector<bool> faced(bone.n_elements(), false);
-    for (const SlavePoint &point : points)
-      if (point.accepted.has_partner)
-        faced[slave == Side::bone ? point.element :
-                                    bone.element_of(point.accepted.xi)] = true;
-    return control_points_of(bone, faced);
-  }
-
-
-
   // A sliding point acts at xi_hat, but its slip is seen from xi_hat^n, too:
   // the tangent has columns for both.
   std::vector<bool>

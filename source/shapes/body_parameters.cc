@@ -98,7 +98,7 @@ namespace Debond
         "on several processes; lattice where it is possible, the implant stays "
         "away from the sides, and strains of a Neo-Hookean bone are below some "
         "1 %; else direct, or multigrid where factors would not fit into "
-        "memory or take longer.");
+        "memory.");
     }
 
 

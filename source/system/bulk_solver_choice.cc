@@ -154,19 +154,6 @@ namespace Debond
       return 1e-3 * MB / Ranks::number_on_this_machine();
     }
 
-
-
-    /** Seconds of one processor for a run, measured
-     * (doc/evidence/speed_and_accuracy.md, Large bones): with multigrid each
-     * iteration of Newton's method takes some cycles. */
-    double
-    seconds_of_multigrid(const ModelParameters &model)
-    {
-      const double iterations = 1.5 * model.load_steps.n_steps();
-      const double per_cycle =
-        model.bone.element == ElementKind::trilinear ? 2.2e-7 : 1.1e-6;
-      return n_unknowns_of(model.bone) * (1.3e-5 + 7. * per_cycle * iterations);
-    }
   } // namespace
 
 
@@ -187,12 +174,6 @@ namespace Debond
     if (factors > 0.9 * memory_of_machine())
       return "as factors would take some " + to_text(factors, 2) +
              " GB of memory, of " + to_text(memory_of_machine(), 2);
-    // to factorise and condense, measured as well
-    const double direct    = 1.3 * std::pow(factors, 1.5),
-                 multigrid = seconds_of_multigrid(*this);
-    if (multigrid < direct)
-      return "in some " + to_text(multigrid, 2) + " s, where factors take " +
-             to_text(direct, 2);
     return "";
   }
 

@@ -196,17 +196,8 @@ namespace Debond
       interface.initialise(configuration);
     }
     const TimedSection t(timer, "condensation");
-    std::vector<bool>  wanted =
-      bone_control_points_under_implant(bone.surface(),
-                                        implant.surface(),
-                                        configuration);
-    const std::vector<bool> faced =
-      faced_bone_control_points(bone.surface(),
-                                interface.get_points(),
-                                interface.slave_side());
-    for (unsigned int A = 0; A < wanted.size(); ++A)
-      wanted[A] = wanted[A] || faced[A];
-    bone.set_contact_control_points(wanted);
+    bone.set_contact_control_points(bone_control_points_under_implant(
+      bone.surface(), implant.surface(), configuration));
     implant.set_contact_control_points(
       std::vector<bool>(implant.surface().n_control_points(), true));
     number_unknowns();

@@ -97,13 +97,6 @@ namespace Debond
     const NurbsSurface           &implant,
     const InterfaceConfiguration &configuration);
 
-  /** Elements of the @p bone that accepted @p points lie on where they face the
-   *  other surface. */
-  std::vector<bool>
-  faced_bone_control_points(const NurbsSurface            &bone,
-                            const std::vector<SlavePoint> &points,
-                            Side                           slave);
-
   /** Elements of the @p bone that closed ones of the @p points lie on in their
    *  trial states. */
   std::vector<bool>

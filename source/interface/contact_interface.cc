@@ -306,6 +306,24 @@ namespace Debond
 
 
 
+  // f_A = int N_A t dA on the slave, and the opposite on the master at xi_hat,
+  // Eq. (36). What one side gets the other one gives at the same parameters, so
+  // that the forces of both sides add up to zero but for rounding. Their
+  // moments do up to f times the gap between x and y(xi_hat), by which the
+  // springs of the interface are stretched.
+  void
+  ContactInterface::add_force(const SlavePoint      &point,
+                              const Eigen::Vector3d &traction,
+                              const SurfaceBasis    &of_master,
+                              NodalSums             &sums) const
+  {
+    const Eigen::Vector3d f = point.JxW * traction;
+    spread(point.basis, f, sums[slave]);
+    spread(of_master, -f, sums[master_side()]);
+  }
+
+
+
   // What Newton's method asks for in each iteration: nodal forces, and the
   // derivatives at every point, for the surfaces as they are proposed. The
   // history of the points goes in and is not changed, so that an iteration owes
@@ -325,12 +343,9 @@ namespace Debond
     // judged and when it is committed.
     const double moved = motion(configuration);
     mode_now           = mode;
-    const StepOfPoints step{law,
-                            slave,
-                            master(configuration),
-                            {accepted_frame, accepted_centre},
-                            configuration};
-    const auto         update = [&](const unsigned int q, NodalSums &sums) {
+    const StepOfPoints step{
+      law, slave, master(configuration), accepted_place, configuration};
+    const auto update = [&](const unsigned int q, NodalSums &sums) {
       SlavePoint         &point   = points[q];
       ContactPointResult &result  = point.trial;
       ContactPointMode    of_rest = mode; // the share that rubs
@@ -348,8 +363,8 @@ namespace Debond
           return;
         }
       const ContactPointState start = point.accepted.has_partner ?
-                                                point.accepted :
-                                                entry(point, configuration);
+                                        point.accepted :
+                                        entry(point, configuration);
       step.update(point,
                   start,
                   interpolate(point.basis, accepted_positions[slave]),
@@ -357,14 +372,7 @@ namespace Debond
                   result);
       if (result.state.status == PointStatus::open)
         return;
-      // f_A = int N_A t dA on the slave, and the opposite on the master at
-      // xi_hat, Eq. (36). What one side gets the other one gives at the same
-      // parameters, so that the forces of both sides add up to zero but for
-      // rounding. Their moments do up to f times the gap between x and
-      // y(xi_hat), by which the springs of the interface are stretched.
-      const Eigen::Vector3d f = point.JxW * result.traction;
-      spread(point.basis, f, sums[slave]);
-      spread(result.basis, -f, sums[master_side()]);
+      add_force(point, result.traction, result.basis, sums);
     };
     forces = sum_in_chunks(points.size(), zero_sums(configuration), update);
     for (unsigned int q = 0; q < shares.size(); ++q)
@@ -398,9 +406,7 @@ namespace Debond
                  master(configuration));
     if (!share.holds)
       return;
-    const Eigen::Vector3d f = point.JxW * share.traction;
-    spread(point.basis, f, sums[slave]);
-    spread(share.basis, -f, sums[master_side()]);
+    add_force(point, share.traction, share.basis, sums);
   }
 
 
@@ -419,7 +425,7 @@ namespace Debond
     first.chuck_unknowns.clear(); // no derivatives
     last.chuck_unknowns.clear();
     const StepOfPoints first_step{
-      law, slave, master(first), {accepted_frame, accepted_centre}, first},
+      law, slave, master(first), accepted_place, first},
       last_step{law, slave, master(last), Place::of_implant(first), last};
     ContactPointMode mode = mode_now;
     mode.duration *= 0.5;
@@ -445,17 +451,16 @@ namespace Debond
       // those of this one.
       const double length = point.trial.tangential_traction.norm() /
                             law.tangential_penalty,
-                   left       = length > 0. ?
-                                  std::exp((begin.slip - end.slip) / length) :
-                                  0.;
-      const Eigen::Vector3d f = point.JxW / (1. - std::min(left, 0.9)) *
-                                (whole.traction - point.trial.traction);
-      spread(point.basis, f, sums[slave]);
-      spread(point.trial.basis, -f, sums[master_side()]);
+                   left = length > 0. ?
+                            std::exp((begin.slip - end.slip) / length) :
+                            0.;
+      add_force(point,
+                (whole.traction - point.trial.traction) /
+                  (1. - std::min(left, 0.9)),
+                point.trial.basis,
+                sums);
     };
-    NodalSums result =
-      sum_in_chunks(points.size(), zero_sums(configuration), update);
-    return result;
+    return sum_in_chunks(points.size(), zero_sums(configuration), update);
   }
 
 
@@ -469,11 +474,8 @@ namespace Debond
     tangent_is_gathered = false;
     if (law.slip_direction != SlipDirection::integrated)
       return;
-    const StepOfPoints step{law,
-                            slave,
-                            master(configuration),
-                            {accepted_frame, accepted_centre},
-                            configuration};
+    const StepOfPoints step{
+      law, slave, master(configuration), accepted_place, configuration};
     for (SlavePoint &point : points)
       if (slides(point.trial.state.status))
         {
@@ -544,16 +546,15 @@ namespace Debond
   {
     tangent_is_gathered = false;
     // how far things have moved must be known before the positions are replaced
-    const Eigen::Matrix3d &Q      = configuration.side[master_side()].frame;
-    const Eigen::Matrix3d  old_Q  = slave == Side::bone ? accepted_frame : Q;
-    const double           moved  = motion(configuration);
-    const NodalSums        before = accepted_positions;
-    const RigidMotion      chuck({accepted_frame, accepted_centre},
-                            Place::of_implant(configuration));
+    const Eigen::Matrix3d &Q = configuration.side[master_side()].frame;
+    const Eigen::Matrix3d  old_Q =
+      slave == Side::bone ? accepted_place.frame : Q;
+    const double      moved  = motion(configuration);
+    const NodalSums   before = accepted_positions;
+    const RigidMotion chuck(accepted_place, Place::of_implant(configuration));
     for (const Side side : both_sides)
       accepted_positions[side] = configuration.side[side].positions;
-    accepted_frame         = configuration.side[Side::implant].frame;
-    accepted_centre        = configuration.chuck->centre();
+    accepted_place         = Place::of_implant(configuration);
     unprojected            = 0;
     works.step_dissipation = 0.;
     for (unsigned int q = 0; q < shares.size(); ++q)

@@ -170,18 +170,8 @@ namespace Debond
       const ContactPointState &start = point.before;
       result.state                   = start;
       result.state.status            = PointStatus::stick;
-      static_cast<PointHistory &>(result.state) =
-        point.joint().advance(point.start, g_n, 0.);
-      result.normal_gap          = g_n;
-      result.pressure            = response.pressure;
-      result.viscous_pressure    = response.viscous_pressure;
-      result.state.gap           = normal.parts(gap);
-      result.softening           = 0.;
-      result.tangential_traction = eps_t * (gap - g_n * n);
-      result.traction = -response.pressure * n + result.tangential_traction;
-      // the potential that Eq. (28) comes from
-      result.energy = response.energy +
-                      0.5 * result.tangential_traction.squaredNorm() / eps_t;
+      result.state.gap               = normal.parts(gap);
+      point.carry(response, n, eps_t * (gap - g_n * n), g_n, 0., result);
       result.slip_increment = result.viscous_traction = Vector3d::Zero();
 
       // The tangent follows from g = x - y and n(a_1, a_2) alone, since
@@ -341,7 +331,6 @@ namespace Debond
       point.start.damage = mode.damage;
     const bool              closed   = is_closed(point, g_n, 0.);
     const InterfaceResponse response = law.joint->respond(point.start, g_n, 0.);
-    const double            limit    = response.limit;
     const Vector3d          tangential_gap = gap - g_n * normal.n;
     const double            trial_traction =
       law.tangential_penalty * tangential_gap.norm();
@@ -349,7 +338,7 @@ namespace Debond
     // stick, whatever they would carry: the tangent is then that of bodies
     // joined by springs, and the iteration cannot begin with a cycle of stick
     // and slip. The true law takes over in the next one.
-    const bool holds = limit > 0. && trial_traction <= limit;
+    const bool holds = response.limit > 0. && trial_traction <= response.limit;
     if (closed && (mode.stick_first || holds))
       stick(point, response, gap, normal, result);
     else if (mode.stick_first || (!closed && holds))
@@ -358,7 +347,7 @@ namespace Debond
     else
       {
         bring_along(normal, point);
-        slide_or_open(point, normal, tangential_gap, limit, result);
+        slide_or_open(point, normal, tangential_gap, response.limit, result);
       }
   }
 } // namespace Debond

@@ -195,9 +195,8 @@ namespace Debond
       accepted_positions[side] = configuration.side[side].positions;
     // Q and C + u of the implant: the rigid motion of the first step begins
     // here.
-    accepted_frame  = configuration.side[Side::implant].frame;
-    accepted_centre = configuration.chuck->centre();
-    unprojected     = 0;
+    accepted_place = Place::of_implant(configuration);
+    unprojected    = 0;
     // From one point to the next: a search over the whole master asks all of
     // its elements.
     const SlavePoint *neighbour = nullptr;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -167,7 +166,6 @@ namespace Debond
                                             &summary.share_pulled}};
     const double                  resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
-    const Tension tension = law.joint->tension;
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
@@ -176,10 +174,11 @@ namespace Debond
           ++summary.n_crossed;
         if (const CohesiveShare *const share = held_share(point))
           summary.energy += point.JxW * share->energy;
-        if (tension.strength > 0. && tension.viscosity == 0. &&
+        if (law.joint->pulls() && law.joint->tension.viscosity == 0. &&
             has_opened_beyond_strength(point))
-          summary.opening_softening = std::max(summary.opening_softening,
-                                               point.phi_0 * tension.softening);
+          summary.opening_softening =
+            std::max(summary.opening_softening,
+                     point.phi_0 * law.joint->tension.softening);
         if (point.faces_implant)
           {
             // phi as reported() has it, of the trial state, and the share of
@@ -209,8 +208,6 @@ namespace Debond
         // (28) comes from; and the largest penetration -g_n [mm], which a
         // push-in in wrong units shows.
         summary.energy += point.JxW * trial.energy;
-        summary.max_softening =
-          std::max(summary.max_softening, trial.softening);
         summary.max_penetration =
           std::max(summary.max_penetration, -trial.normal_gap);
         summary.max_traction =
@@ -326,13 +323,12 @@ namespace Debond
   {
     if (failed == nullptr)
       return "";
-    Classic<std::ostringstream> text;
-    text << (failed->trial.negative_friction ?
-               "the friction law has a negative coefficient" :
-               "no solution of the friction law")
-         << " at the " << name_of(slave)
-         << "'s quadrature point at parameters (" << failed->xi[0] << ", "
-         << failed->xi[1] << "), g_s = " << failed->accepted.slip << " mm";
-    return text.str();
+    return Text() << (failed->trial.negative_friction ?
+                        "the friction law has a negative coefficient" :
+                        "no solution of the friction law")
+                  << " at the " << name_of(slave)
+                  << "'s quadrature point at parameters (" << failed->xi[0]
+                  << ", " << failed->xi[1]
+                  << "), g_s = " << failed->accepted.slip << " mm";
   }
 } // namespace Debond

@@ -81,6 +81,64 @@ namespace Debond
                                   0.5 * std::max(gap.squaredNorm(),
                                                  (gap + motion).squaredNorm()));
     }
+
+
+
+    /** The same of a point that is pressed, and that the chuck lifts up to the
+     *  gap @p g_n [mm] by its @p motion. Its spring is stretched by @p gap, and
+     *  the bodies move @p by_bodies when they are unloaded [mm]. */
+    double
+    friction_of_lifting(const ContactPointLaw   &law,
+                        const PointStart        &start,
+                        const InterfaceResponse &at_start,
+                        const OpeningMotion     &motion,
+                        const Eigen::Vector3d   &gap,
+                        const Eigen::Vector3d   &by_bodies,
+                        const double             g_n)
+    {
+      const Eigen::Vector3d &n     = motion.normal;
+      const double           eps_t = law.tangential_penalty,
+                   penetration     = at_start.pressure / law.joint->stiffness;
+      // How compliant the bodies are, over the springs: along the pressure,
+      // and along the traction where there is one worth asking.
+      const double rises      = std::max(0., -n.dot(by_bodies)),
+                   limit      = at_start.limit / eps_t,
+                   little     = 1e-4 * limit * limit,
+                   compliance = std::max(0.,
+                                         (by_bodies.dot(gap) +
+                                          little * rises / penetration) /
+                                           (gap.squaredNorm() + little));
+      // it is closed until the chuck has used up the penetration of both
+      const double closed =
+        (penetration + rises) / (penetration + rises + std::max(0., g_n));
+      // Spring and bodies in series: the compliance 1 + c in units of
+      // 1/eps_t, stretched by (1 + c) gap. What holds it moves by the chuck
+      // as long as the point is closed, and by what the bodies do beside
+      // giving way to this traction.
+      const Eigen::Vector3d stretched = (1. + compliance) * gap,
+                            holder    = closed * motion.by_chuck + by_bodies,
+                            moved =
+                              holder - n.dot(holder) * n - compliance * gap;
+      // it slides evenly, as friction that depends on the speed asks
+      const double way      = (stretched + moved).norm();
+      const auto   limit_at = [&](const double slip) {
+        const double     part = way > 0. ? std::max(1e-3, slip / way) : 1.;
+        const PointStart from =
+          law.joint->begin(start.history,
+                           start.phi_0,
+                           part * closed * start.duration);
+        return (1. + compliance) / eps_t *
+               law.joint->respond(from, start.history.normal_gap, part * way)
+                 .limit;
+      };
+      const double viscous = start.duration > 0. ?
+                               law.viscosity / (closed * start.duration) *
+                                 (1. + compliance) / eps_t :
+                               0.;
+      const double lag     = viscous / (1. + viscous) * way;
+      return friction_until_open(
+        stretched, moved, limit_at, lag, eps_t / (1. + compliance));
+    }
   } // namespace
 
 
@@ -227,18 +285,12 @@ namespace Debond
     const double p   = std::max(0., at_start.pressure),
                  g_n = trial.normal_gap -
                        (joint.pulls() ? 0. : joint.reach(start, 0.));
-    const Eigen::Vector3d &n          = motion.normal;
-    const auto             tangential = [&n](const Eigen::Vector3d &v) {
-      return Eigen::Vector3d(v - n.dot(v) * n);
-    };
-    const double          eps_t        = law.tangential_penalty;
     const Eigen::Vector3d old_traction = frame * point.accepted_traction,
-                          gap          = old_traction / eps_t;
-    // of the normal spring at the beginning [mm]
-    const double penetration = p / joint.stiffness;
-    // Unloaded, the bodies move as well: while the point is closed.
-    const Eigen::Vector3d by_bodies =
-      motion.gap - (gap - penetration * n) - motion.by_chuck;
+                          gap          = old_traction / law.tangential_penalty,
+                          // unloaded, the bodies move as well: while the point
+                          // is closed
+      by_bodies = motion.gap - motion.by_chuck -
+                  (gap - p / joint.stiffness * motion.normal);
     const bool over_edge = g_n < -mode.touch_tolerance && p > 0.;
     double     lost = 0., of_springs = 0.; // per area [N/mm]
     if (at_start.pressure < 0.)            // a bond that is torn over the edge
@@ -257,43 +309,8 @@ namespace Debond
       }
     else if (!mode.frictionless && p > 0.)
       {
-        // How compliant the bodies are, over the springs: along the pressure,
-        // and along the traction where there is one worth asking.
-        const double rises      = std::max(0., -n.dot(by_bodies)),
-                     limit      = at_start.limit / eps_t,
-                     little     = 1e-4 * limit * limit,
-                     compliance = std::max(0.,
-                                           (by_bodies.dot(gap) +
-                                            little * rises / penetration) /
-                                             (gap.squaredNorm() + little));
-        // it is closed until the chuck has used up the penetration of both
-        const double closed =
-          (penetration + rises) / (penetration + rises + std::max(0., g_n));
-        // Spring and bodies in series: the compliance 1 + c in units of
-        // 1/eps_t, stretched by (1 + c) gap. What holds it moves by the chuck
-        // as long as the point is closed, and by what the bodies do beside
-        // giving way to this traction.
-        const Eigen::Vector3d stretched = (1. + compliance) * gap,
-                              moved     = closed * tangential(motion.by_chuck) +
-                                      tangential(by_bodies) - compliance * gap;
-        // it slides evenly, as friction that depends on the speed asks
-        const double way      = (stretched + moved).norm();
-        const auto   limit_at = [&](const double slip) {
-          const double     part = way > 0. ? std::max(1e-3, slip / way) : 1.;
-          const PointStart from = joint.begin(start.history,
-                                              start.phi_0,
-                                              part * closed * start.duration);
-          return (1. + compliance) / eps_t *
-                 joint.respond(from, point.accepted.normal_gap, part * way)
-                   .limit;
-        };
-        const double viscous = start.duration > 0. ?
-                                 law.viscosity / (closed * start.duration) *
-                                   (1. + compliance) / eps_t :
-                                 0.;
-        const double lag     = viscous / (1. + viscous) * way;
-        lost                 = friction_until_open(
-          stretched, moved, limit_at, lag, eps_t / (1. + compliance));
+        lost = friction_of_lifting(
+          law, start, at_start, motion, gap, by_bodies, g_n);
       }
     // as the trapezoid of the chuck's work has it, with a traction that falls
     // evenly to zero over the whole step

@@ -438,34 +438,29 @@ namespace Debond
   void
   SlipProblem::report(ContactPointResult &result)
   {
-    const SlipEquations     &e        = *equations;
-    const InterfaceResponse &response = e.response;
-    const Vector3d           n_turns  = e.normal_along_surface() * last_step;
+    const SlipEquations &e        = *equations;
+    InterfaceResponse    response = e.response;
+    const Vector3d       n_turns  = e.normal_along_surface() * last_step;
     const Vector4d change = along_surface().traction_and_distance * last_step;
     const double   gap    = e.gap_along_surface() * last_step,
-                 distance = e.distance + change[3],
                  more     = response.pressure_by_gap * gap +
                         response.pressure_by_slip * change[3]; // pressure
-    result.normal_gap          = e.g_n + gap;
-    result.pressure            = response.pressure + more;
-    result.viscous_pressure    = response.viscous_pressure;
-    result.traction            = e.traction + change.head<3>();
-    result.tangential_traction = e.tangential_traction;
-    if (response.limit != 0.) // else rounding would have a direction
-      result.tangential_traction +=
+    Vector3d tangential = e.tangential_traction;
+    if (!tangential.isZero(0.)) // else rounding would have a direction
+      tangential +=
         change.head<3>() + more * e.normal.n + response.pressure * n_turns;
+    response.pressure += more;
     result.state.gap =
-      e.normal.parts(result.tangential_traction / point.law.tangential_penalty);
-    result.softening        = e.softening();
+      e.normal.parts(tangential / point.law.tangential_penalty);
+    point.carry(response,
+                e.normal.n + n_turns,
+                tangential,
+                e.g_n + gap,
+                e.distance + change[3],
+                result);
     result.viscous_traction = e.viscous_traction;
     result.slip_increment =
       e.slip + geometry.a1 * last_step[0] + geometry.a2 * last_step[1];
-    result.energy =
-      response.energy + 0.5 * result.tangential_traction.squaredNorm() /
-                          point.law.tangential_penalty;
-    // the history of the point once the step is accepted
-    static_cast<PointHistory &>(result.state) =
-      point.joint().advance(point.start, result.normal_gap, distance);
     const auto by_w = e.along_w();
     // what a ridge holds does not move
     Eigen::Matrix2d inverse = by_xi->h.inverse();

@@ -31,11 +31,11 @@ namespace Debond
       return (bone.is_rigid() ? 0. : of_bone / bone.young_modulus) +
              (implant.is_rigid() ? 0. : of_implant / implant.young_modulus);
     };
-    const double bar = 2. * (1. + implant.poisson_ratio) * implant.height;
-    const double normal =
-      of_bodies((1. - nu * nu) * M_PI * R / (2. + 2.56 * R / bone.size[2]),
-                implant.height);
-    const double torsional = of_bodies(3. * M_PI * R / 16. * (1. + nu), bar);
+    const double bar       = 2. * (1. + implant.poisson_ratio) * implant.height,
+                 torsional = of_bodies(3. * M_PI * R / 16. * (1. + nu), bar),
+                 normal    = of_bodies((1. - nu * nu) * M_PI * R /
+                                      (2. + 2.56 * R / bone.size[2]),
+                                    implant.height);
     const double stiffness =
       1. / (torsional + 1. / interface.tangential_stiffness());
     const double p_over_depth =
@@ -66,9 +66,8 @@ namespace Debond
         const ClosedFormSolution solution(scene);
         pressure = solution.rows.back().pressure_MPa;
         T_end    = solution.rows.back().torque_Nmm;
-        T_max    = 0.;
         for (const TorqueRow &row : solution.rows)
-          T_max = std::max(T_max, std::abs(row.torque_Nmm));
+          T_max = std::fmax(T_max, std::abs(row.torque_Nmm)); // none at first
         // points trail by L = mu p / eps_t along arcs, T = 2/3 pi mu p R^3
         const double L = 1.5 * T_max / (M_PI * std::pow(R, 3)) /
                          interface.tangential_stiffness();

@@ -178,36 +178,8 @@ namespace Debond
 
 
     void
-    declare_calibration(EntryTable &table)
+    declare_search(EntryTable &table)
     {
-      table.enter_subsection("Calibration");
-      table.add("Curves",
-                "auto",
-                nullptr,
-                Allowed::list(Allowed::text("a column of torque.csv", false),
-                              1,
-                              0)
-                  .or_word("auto"),
-                "Measured quantities, as columns of torque.csv (torque_Nmm "
-                "and those that begin with chuck_), in the order of Output / "
-                "Reference columns. `auto': the load of Output / Curve.");
-      table.add(
-        "Over",
-        "auto",
-        nullptr,
-        Allowed::text("a column of torque.csv", false).or_word("auto"),
-        "Quantity that Curves were measured over, the first of Output / "
-        "Reference columns: time, angle_deg or another column of torque.csv "
-        "that begins with chuck_ or machine_. `auto': the position of Output "
-        "/ Curve.");
-      table.add("Windows",
-                "none",
-                nullptr,
-                Allowed::list(Allowed::number(""), 2, 0).or_word("none"),
-                "Parts of the measured curves that are fitted, as pairs of "
-                "bounds in Over: 0, 0.13, 9, 10. `none': the whole curve.");
-      declare_noise(table);
-      declare_rig(table);
       table.add("Measure",
                 "least squares",
                 nullptr,
@@ -246,6 +218,42 @@ namespace Debond
                 Allowed::choice("false | true"),
                 "Write profile.csv: each unknown in turn is fixed at values "
                 "around the best one, and the others are fitted.");
+    }
+
+
+
+    void
+    declare_calibration(EntryTable &table)
+    {
+      table.enter_subsection("Calibration");
+      table.add("Curves",
+                "auto",
+                nullptr,
+                Allowed::list(Allowed::text("a column of torque.csv", false),
+                              1,
+                              0)
+                  .or_word("auto"),
+                "Measured quantities, as columns of torque.csv (torque_Nmm "
+                "and those that begin with chuck_), in the order of Output / "
+                "Reference columns. `auto': the load of Output / Curve.");
+      table.add(
+        "Over",
+        "auto",
+        nullptr,
+        Allowed::text("a column of torque.csv", false).or_word("auto"),
+        "Quantity that Curves were measured over, the first of Output / "
+        "Reference columns: time, angle_deg or another column of torque.csv "
+        "that begins with chuck_ or machine_. `auto': the position of Output "
+        "/ Curve.");
+      table.add("Windows",
+                "none",
+                nullptr,
+                Allowed::list(Allowed::number(""), 2, 0).or_word("none"),
+                "Parts of the measured curves that are fitted, as pairs of "
+                "bounds in Over: 0, 0.13, 9, 10. `none': the whole curve.");
+      declare_noise(table);
+      declare_rig(table);
+      declare_search(table);
       table.leave_subsection();
     }
 

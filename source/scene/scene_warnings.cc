@@ -165,13 +165,45 @@ namespace Debond
 
 
     void
+    judge_points(const Scene &scene, const Note &note)
+    {
+      const unsigned int
+        points =
+          scene.interface.points_per_element(scene.bone, scene.implant).size(),
+        fewest =
+          scene.interface.fewest_points_per_element(scene.bone, scene.implant);
+      note(points < fewest,
+           "cells without points",
+           "Interface / Quadrature points = " + std::to_string(points) +
+             " leaves cells of the other body without a point, which makes "
+             "the interface too soft: choose " +
+             (fewest <= InterfaceParameters::most_points ?
+                std::to_string(fewest) + " or more, or " :
+                "") +
+             "larger Cells there");
+      const auto               cells   = scene.implant.lattice_of_cells();
+      const unsigned int       n       = scene.implant.is_fitted() ?
+                                           scene.implant.n_fitted_elements() :
+                                           cells[0] * cells[1];
+      const BondingParameters &bonding = scene.interface.bonding;
+      note(bonding.pattern == BondingPatternKind::random &&
+             bonding.resolution == BondingResolution::element && n < 50,
+           "elements of the pattern",
+           "Interface / Bonding / Pattern = random draws from " +
+             std::to_string(n) +
+             " elements of the implant, too few to scatter: Implant / Cells = "
+             "20, 2 makes 400");
+    }
+
+
+
+    void
     judge_interface(const Scene &scene, const Note &note)
     {
       judge_tension(scene, note);
-      const FrictionLaw       &law     = *scene.interface.friction;
-      const BondingParameters &bonding = scene.interface.bonding;
-      const double mu_b = law.coefficient({0.}, 0.).mu, // of no bond
-        mu_ub           = law.coefficient({}, 0.).mu;
+      const FrictionLaw &law  = *scene.interface.friction;
+      const double       mu_b = law.coefficient({0.}, 0.).mu, // of no bond
+        mu_ub                 = law.coefficient({}, 0.).mu;
       note(
         law.has_bond() && mu_ub < mu_b,
         "coefficients",
@@ -206,31 +238,7 @@ namespace Debond
              " mm: how far a place has slid stays with the bone, which has no "
              "bond where it is beside the implant. Slave = implant takes both "
              "along");
-      const unsigned int
-        points =
-          scene.interface.points_per_element(scene.bone, scene.implant).size(),
-        fewest =
-          scene.interface.fewest_points_per_element(scene.bone, scene.implant);
-      note(points < fewest,
-           "cells without points",
-           "Interface / Quadrature points = " + std::to_string(points) +
-             " leaves cells of the other body without a point, which makes "
-             "the interface too soft: choose " +
-             (fewest <= InterfaceParameters::most_points ?
-                std::to_string(fewest) + " or more, or " :
-                "") +
-             "larger Cells there");
-      const auto         cells = scene.implant.lattice_of_cells();
-      const unsigned int n     = scene.implant.is_fitted() ?
-                                   scene.implant.n_fitted_elements() :
-                                   cells[0] * cells[1];
-      note(bonding.pattern == BondingPatternKind::random &&
-             bonding.resolution == BondingResolution::element && n < 50,
-           "elements of the pattern",
-           "Interface / Bonding / Pattern = random draws from " +
-             std::to_string(n) +
-             " elements of the implant, too few to scatter: Implant / Cells = "
-             "20, 2 makes 400");
+      judge_points(scene, note);
     }
 
 

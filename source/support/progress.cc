@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <mutex>
 
 namespace Debond
 {
   namespace
   {
-    std::recursive_mutex access;
-    bool                 is_enabled = false, is_shown = false;
+    bool is_enabled = false, is_shown = false;
 
 
 
@@ -103,7 +101,6 @@ namespace Debond
   void
   hide_progress()
   {
-    const std::lock_guard<std::recursive_mutex> lock(access);
     if (is_shown)
       write_to_terminal("\r\033[K");
     is_shown = false;
@@ -114,9 +111,8 @@ namespace Debond
   void
   Progress::show(const std::string &what, const double fraction)
   {
-    constexpr double                            interval = 0.1; // s
-    const std::lock_guard<std::recursive_mutex> lock(access);
-    const auto now   = std::chrono::steady_clock::now();
+    constexpr double interval = 0.1; // s
+    const auto       now      = std::chrono::steady_clock::now();
     const auto since = [&](const std::chrono::steady_clock::time_point &then) {
       return std::chrono::duration<double>(now - then).count();
     };

@@ -1,7 +1,6 @@
 #include <debond/support/number_text.h>
 #include <debond/system/chuck_path.h>
 
-#include <sstream>
 
 namespace Debond
 {
@@ -63,19 +62,16 @@ namespace Debond
   std::string
   ChuckPath::describe() const
   {
-    Eigen::Index                k;
-    const double                share = missed_shares.maxCoeff(&k);
-    Classic<std::ostringstream> text;
-    text.precision(3);
-    text << 100. * share << " % of the path of ";
-    if (k == interference)
-      text << "Interface / Interference";
-    else if (k >= translations)
-      text << (k == tilts ? "the tilts (Rotation x, y) of the chuck" :
-                            "the translations of the chuck");
-    else
-      text << (parameters.component[k].loaded ? "the load of " : "")
-           << ChuckParameters::names[k] << " of the chuck";
-    return text.str();
+    Eigen::Index k;
+    const double share = missed_shares.maxCoeff(&k);
+    return to_text(100. * share, 3) + " % of the path of " +
+           (k == interference ?
+              "Interface / Interference" :
+            k == translations ?
+              "the translations of the chuck" :
+            k == tilts ?
+              "the tilts (Rotation x, y) of the chuck" :
+              (parameters.component[k].loaded ? "the load of " : "") +
+                std::string(ChuckParameters::names[k]) + " of the chuck");
   }
 } // namespace Debond

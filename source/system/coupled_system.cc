@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 // The coupled system, which sections 6 and 7 of doc/developers/walk.md are
 // about: two bodies, the chuck and the interface between them. In the paper it
@@ -581,8 +580,8 @@ namespace Debond
   std::string
   CoupledSystem::describe_worst_point(const Residual &residual) const
   {
-    int                         worst = -1;
-    Classic<std::ostringstream> text;
+    int  worst = -1;
+    Text text;
     text << "residual "
          << (unknowns > 0 ? residual.unknowns.cwiseAbs().maxCoeff(&worst) : 0.);
     for (const Side side : both_sides)
@@ -603,6 +602,6 @@ namespace Debond
       if (static_cast<int>(number) == worst)
         text << (is_rotation(component) ? " N mm" : " N") << " in the chuck's "
              << ChuckParameters::names[component];
-    return text.str();
+    return text;
   }
 } // namespace Debond

@@ -2,7 +2,6 @@
 #include <debond/system/newton.h>
 
 #include <algorithm>
-#include <sstream>
 
 // Section 5 of doc/developers/walk.md: deal.II's solve_nonlinear_timestep of
 // step-44 for two bodies and their interface. The tangent of the interface is
@@ -199,11 +198,10 @@ namespace Debond
             hopeless(
               {result.history.begin() + cautious_from, result.history.end()}))
           {
-            Classic<std::ostringstream> why;
-            why << "no convergence in " << iteration
-                << " iterations, relative residual " << error << ", largest "
-                << system.describe_worst_point(residual);
-            result.why = why.str();
+            result.why = Text() << "no convergence in " << iteration
+                                << " iterations, relative residual " << error
+                                << ", largest "
+                                << system.describe_worst_point(residual);
             return result;
           }
         // The tangent is exact, but only for the present state of each point.

@@ -2,7 +2,6 @@
 #include <debond/system/step_control.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace Debond
 {
@@ -121,17 +120,15 @@ namespace Debond
   std::string
   PathFollowing::reason_to_end() const
   {
-    Classic<std::ostringstream> reason;
     if (is_detached)
-      reason << "the bond is gone, and nothing is left that a load could act "
+      return Text()
+             << "the bond is gone, and nothing is left that a load could act "
                 "against, at time "
              << time;
-    else if (path_length >= end_slip)
-      reason << "the mean of sliding distance and opening has reached "
-             << end_slip << " mm (Load steps / Path ends at slip) at time "
-             << time;
-    else
-      return StepControl::reason_to_end();
-    return reason.str();
+    if (path_length >= end_slip)
+      return Text() << "the mean of sliding distance and opening has reached "
+                    << end_slip
+                    << " mm (Load steps / Path ends at slip) at time " << time;
+    return StepControl::reason_to_end();
   }
 } // namespace Debond

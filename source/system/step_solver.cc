@@ -2,7 +2,6 @@
 #include <debond/system/step_solver.h>
 
 #include <cmath>
-#include <sstream>
 
 // Section 4 of doc/developers/walk.md: the state at the end of a step. The
 // paper goes through 100 to 2500 load steps and does not say what happens when
@@ -132,25 +131,25 @@ namespace Debond
     describe_softening(const InterfaceSummary    &summary,
                        const InterfaceParameters &interface)
     {
-      Classic<std::ostringstream> text;
       // A user can act on it: the numbers of the worst point, and the entries
       // that move the bound -dL/dg_s < eps_t.
-      text << "the friction law softens faster than the interface is stiff, so "
-              "that its local solution is not unique and the bond would break "
-              "in a jump: at a pressure of p = "
-           << summary.softening_pressure
-           << " MPa the limit of the traction falls by up to "
-           << summary.softening_slope
-           << " MPa per mm of slip, and has one solution while that is less "
-              "than the stiffness eps_t (with Viscosity: and eta over the "
-              "step's duration), "
-           << summary.softening_slope / summary.steepest_softening
-           << " MPa/mm. What helps: Interface / Viscosity, a larger Interface "
-              "/ Tangential stiffness, a larger "
-           << interface.friction->entries_against_fall;
-      if (interface.joint()->pulls())
-        text << ", a smaller Adhesive friction or Strength";
-      return text.str();
+      return Text()
+             << "the friction law softens faster than the interface is stiff, so "
+                "that its local solution is not unique and the bond would break "
+                "in a jump: at a pressure of p = "
+             << summary.softening_pressure
+             << " MPa the limit of the traction falls by up to "
+             << summary.softening_slope
+             << " MPa per mm of slip, and has one solution while that is less "
+                "than the stiffness eps_t (with Viscosity: and eta over the "
+                "step's duration), "
+             << summary.softening_slope / summary.steepest_softening
+             << " MPa/mm. What helps: Interface / Viscosity, a larger Interface "
+                "/ Tangential stiffness, a larger "
+             << interface.friction->entries_against_fall
+             << (interface.joint()->pulls() ?
+                   ", a smaller Adhesive friction or Strength" :
+                   "");
     }
   } // namespace
 
@@ -177,7 +176,7 @@ namespace Debond
       system.chuck.relax_machine();
 
     // How it goes on. The first iteration from the last state has all closed
-    // points stick (station 5): sticking points are a linear spring, and cannot
+    // points stick: sticking points are a linear spring, and cannot
     // go round between stick and slip. Not so after a relaxed machine: points
     // that stick would pull back at once all of it.
     NewtonOptions options;
@@ -219,7 +218,7 @@ namespace Debond
 
 
 
-  // The state that solve() found becomes history, station 10. Along a path the
+  // The state that solve() found becomes history. Along a path the
   // time has been found, too, so it is asked for; states are then numbered,
   // since the line of the next prediction cannot be drawn over a time that
   // falls.

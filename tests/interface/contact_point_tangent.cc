@@ -91,7 +91,7 @@ struct Question
     result.dt.setOnes();
     result.dxi.setOnes();
     result.traction.setOnes();
-    result.pressure = result.softening = 1.;
+    result.pressure = 1.;
     update_contact_point(law, start, phi_0, x, master(), mode, result);
     return result;
   }
@@ -318,7 +318,7 @@ check_point(Question question, Findings &found)
       if (result.state.status == PointStatus::open)
         grow(found.nothing,
              result.traction.norm() + result.dt.norm() + result.dxi.norm() +
-               std::abs(result.pressure) + std::abs(result.softening) +
+               std::abs(result.pressure) +
                std::abs(result.state.slip - question.start.slip));
       else if (result.state.status != PointStatus::pulled)
         check_equations(question, result, found);

@@ -7,21 +7,10 @@
 
 namespace Debond
 {
-  /** History of a CohesiveShare; of fixed size, see SavedState. */
-  struct CohesiveHistory
-  {
-    /** Where it is bonded: parameters of the master. */
-    Eigen::Vector2d xi = Eigen::Vector2d::Zero();
-    /** The gap that bears in the accepted state, in the master's frame [mm]. */
-    Eigen::Vector3d gap = Eigen::Vector3d::Zero();
-  };
-
-
-
   /** The share of a slave point that is held at the place of the master to
    *  which it has bonded, by laws that have one. It is a point that sticks
-   * there for good, beside the share that rubs. */
-  struct CohesiveShare : CohesiveHistory
+   *  there for good, beside the share that rubs. */
+  struct CohesiveShare
   {
     /** The trial state of a slave point at @p x that began the step as @p start
      *  says. */
@@ -32,12 +21,19 @@ namespace Debond
            const MasterSurface   &master);
 
     /** Work that its damage dissipates per area on the straight way from the
-     * gap
-     *  @p before, by the law [N/mm]. */
+     *  gap @p before, by the law [N/mm]. */
     double
     damage_work(const InterfaceLaw    &law,
                 PointStart             start,
                 const Eigen::Vector3d &before) const;
+
+    /** @name History */
+    //@{
+    /** Parameters of the master where it is bonded. */
+    Eigen::Vector2d xi = Eigen::Vector2d::Zero();
+    /** The gap that bears in the accepted state, in the master's frame [mm]. */
+    Eigen::Vector3d gap = Eigen::Vector3d::Zero();
+    //@}
 
     /** @name Trial state of the last update(), and its derivatives */
     //@{
@@ -60,10 +56,7 @@ namespace Debond
     void
     serialize(Archive &archive, const unsigned int)
     {
-      if constexpr (is_in_memory<Archive>)
-        archive.copy(static_cast<CohesiveHistory &>(*this));
-      else
-        archive &xi &gap;
+      archive &xi &gap;
     }
   };
 } // namespace Debond

@@ -6,6 +6,7 @@
 #include <debond/interface/interface_configuration.h>
 #include <debond/interface/interface_parameters.h>
 #include <debond/interface/point_motion.h>
+#include <debond/interface/rigid_motion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +24,10 @@ namespace Debond
     double share_stick = 0, share_slip = 0, share_open = 0, share_pulled = 0;
     double pressure = 0, tangential = 0; ///< area means [MPa]
     double energy = 0;                   ///< stored [N mm]
-    /** Largest -dL/d g_s / (eps_t + eta / dt). */
-    double max_softening = 0;
-    /** The same where the law of a point falls steepest from the g_s on that
-     *  the step began with: the local solution is unique while this is below
-     *  1. Zero for the explicit law, which does not ask. */
+    /** Largest -dL/d g_s / (eps_t + eta / dt), where the law of a point falls
+     *  steepest from the g_s on that the step began with: the local solution is
+     *  unique while this is below 1. Zero for the explicit law, which does not
+     *  ask. */
     double steepest_softening = 0;
     /** p, and -dL/d g_s of that point [MPa, MPa/mm]. */
     double softening_pressure = 0, softening_slope = 0;
@@ -184,7 +184,6 @@ namespace Debond
 
 
   class BulkSpace;
-  struct RigidMotion;
 
   /**
    * The interface: the slave quadrature points, their history, the forces they
@@ -413,8 +412,9 @@ namespace Debond
         archive &share;
       if (Archive::is_loading::value)
         follow_pattern();
-      archive &forces &accepted_positions &accepted_frame &accepted_centre;
-      archive &works                                      &unprojected;
+      archive &forces &accepted_positions;
+      archive &accepted_place.frame &accepted_place.centre;
+      archive &works                &unprojected;
       if constexpr (is_in_memory<Archive>)
         archive &mode_now;
       if (Archive::is_loading::value)
@@ -466,6 +466,13 @@ namespace Debond
     ContactPointState
     entry(const SlavePoint             &point,
           const InterfaceConfiguration &configuration) const;
+    /** Adds that of a @p traction [MPa] on a point, and the opposite one on the
+     *  master. */
+    void
+    add_force(const SlavePoint      &point,
+              const Eigen::Vector3d &traction,
+              const SurfaceBasis    &of_master,
+              NodalSums             &sums) const;
     void
     hold(unsigned int                  q,
          const InterfaceConfiguration &configuration,
@@ -507,13 +514,11 @@ namespace Debond
     FacesAtStart                          at_start;
     std::unique_ptr<const BondingPattern> pattern;
     NodalSums                             forces, accepted_positions;
-    /** Of the implant: Q, and the centre of its chuck [mm]. */
-    Eigen::Matrix3d   accepted_frame  = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d   accepted_centre = Eigen::Vector3d::Zero();
-    InterfaceWork     works;
-    unsigned int      unprojected = 0;
-    const SlavePoint *failed      = nullptr;
-    ContactPointMode  mode_now; ///< of the last evaluate()
+    Place                                 accepted_place; ///< of the implant
+    InterfaceWork                         works;
+    unsigned int                          unprojected = 0;
+    const SlavePoint                     *failed      = nullptr;
+    ContactPointMode                      mode_now; ///< of the last evaluate()
     /** Of the closed points, gathered for the first of several products. */
     mutable std::array<std::vector<PointTangent>, n_chunks> tangent;
     mutable bool tangent_is_gathered = false;

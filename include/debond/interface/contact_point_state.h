@@ -120,9 +120,6 @@ namespace Debond
     /** How far a point that left the master over its edge slid before [mm];
      *  else 0. */
     double path_to_edge = 0;
-    /** -dL/d g_s / (eps_t + eta / dt) where the law softens; the local solution
-     *  is unique while this is below one. */
-    double softening = 0;
   };
 
   /** w = (g, a_1, a_2, g*, g_n, turn), by which traction and xi_hat of a

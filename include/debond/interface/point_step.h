@@ -34,6 +34,29 @@ namespace Debond
     {
       return *law.joint;
     }
+
+    /** Writes what a point that is closed carries: the tractions of a
+     *  @p response along the normal @p n and a @p tangential one [MPa], at the
+     *  gap @p g_n [mm]; and its history after sliding by @p distance [mm]. */
+    void
+    carry(const InterfaceResponse &response,
+          const Eigen::Vector3d   &n,
+          const Eigen::Vector3d   &tangential,
+          const double             g_n,
+          const double             distance,
+          ContactPointResult      &result) const
+    {
+      result.normal_gap          = g_n;
+      result.pressure            = response.pressure;
+      result.viscous_pressure    = response.viscous_pressure;
+      result.tangential_traction = tangential;
+      result.traction            = -response.pressure * n + tangential;
+      // the potential that Eq. (28) comes from
+      result.energy = response.energy +
+                      0.5 * tangential.squaredNorm() / law.tangential_penalty;
+      static_cast<PointHistory &>(result.state) =
+        joint().advance(start, g_n, distance);
+    }
   };
 } // namespace Debond
 #endif

@@ -107,16 +107,6 @@ namespace Debond
     Eigen::Matrix<double, 3, 2>
     normal_along_surface() const;
 
-    /** -dL/d g_s / (eps_t + eta / dt) where the law softens, dimensionless:
-     *  how fast the limit falls with the slip, relative to how fast the springs
-     *  let go. From 1 on the bond breaks in a jump. */
-    double
-    softening() const
-    {
-      return std::max(0., -response.limit_by_slip) /
-             (point.law.tangential_penalty + point.viscous);
-    }
-
     // What the point has come to at the trial place. h has to vanish: it is
     // the part of g - t_t / eps_t [mm] along a_alpha, and of the excess. The
     // response is that at the updated sliding distance, Eq. (32). Tractions are

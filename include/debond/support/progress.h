@@ -30,7 +30,7 @@ namespace Debond
 
     /** Replaces the line, not more often than eyes can follow: @p what with a
      *  bar and the time that is left if the @p fraction that is done is known,
-     *  which is not negative then. May be called by several threads. */
+     *  which is not negative then. */
     void
     show(const std::string &what, double fraction);
 

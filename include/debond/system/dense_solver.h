@@ -78,14 +78,13 @@ namespace Debond
         {
           bool     is_factorised = factors != nullptr;
           archive &is_factorised;
+          if (!is_factorised)
+            return forget();
           // what is saved stays as it is
-          auto known = !is_factorised ?
-                         nullptr :
-                       Archive::is_loading::value ?
-                         std::make_shared<Factors>() :
-                         std::const_pointer_cast<Factors>(factors);
-          if (known)
-            archive & known->lu & known->permutation.indices();
+          const auto known = Archive::is_loading::value ?
+                               std::make_shared<Factors>() :
+                               std::const_pointer_cast<Factors>(factors);
+          archive & known->lu & known->permutation.indices();
           factors = known;
         }
     }

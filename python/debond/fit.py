@@ -450,3 +450,6 @@ class Fit:
 
     def __repr__(self) -> str:
         return "Fit(" + ", ".join(f"{name} = {value:.5g}" for name, value in zip(self.names, self.values)) + ")"
+
+    def _repr_html_(self) -> str:
+        return self.table()._repr_html_()

@@ -200,7 +200,8 @@ class Study:
         said = set()
         for variant in self.variants:
             variant.look_up()
-            say(variant.name + " (done already)" * variant.done)
+            say(variant.name + (" (done already, but the content of its reference has changed: distances will be computed anew)"
+                                if variant.has_other_references else " (done already)" * variant.done))
             doubts = _debond.check_variant(variant.scene)
             for doubt in doubts:
                 if doubt not in said:
@@ -243,6 +244,7 @@ class Study:
         self._run_variants(n_jobs, n_threads, force)
         self.write_table()
         self.write_ensemble()
+        self.name_best()
         has_page = self.reports and write_page_if_possible(self.directory)
         self.say(f"Results are in {self.directory}/study.csv" + " and report.html" * has_page)
         failed = n - self.n_done()
@@ -305,6 +307,13 @@ class Study:
             columns.update(rows[variant.number])
         fields = ([field_of(rows[number].get(name)) for name in columns] for number in sorted(rows))
         write_whole(f"{self.directory}/study.csv", csv_text(columns, fields, 12))
+
+    def name_best(self):
+        """The variant closest to the measured curve."""
+        compared = {variant.name: number(variant.summary.get("difference_mean")) for variant in self.variants if variant.done}
+        best = min(filter(lambda name: math.isfinite(compared[name]), compared), key=compared.get, default=None)
+        if best is not None and not self.reference and len(self.variants) > 1:
+            self.say(f"Closest to the measured curve: {best}, by {100 * compared[best]:.2g} % in the mean")
 
     def write_ensemble(self):
         """The seed is what stands for chance."""

@@ -38,7 +38,9 @@ LOCAL, FAR = 0.02, 7  # of the largest value, and of the standard deviation of n
 def problem_of(scene, runs=None):
     """The Problem of a scene with unknowns. Raises SceneError."""
     scene = scene if isinstance(scene, Scene) else Scene(scene)
-    entries = _debond.changed(scene._entries, ["Task=calibrate"])
+    entries = scene._entries
+    if not any(entry.name == "Task" and entry.value == "calibrate" for entry in entries):
+        entries = _debond.changed(entries, ["Task=calibrate"])
     variants = variants_of(entries)
     for entry in entries:
         if entry.name == "Output / Directory" and "{{" in entry.value:

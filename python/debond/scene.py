@@ -214,9 +214,6 @@ class Result:
     def __init__(self, rows, summary, warnings):
         self.rows, self.summary, self.warnings = rows, summary, warnings
 
-    def __repr__(self) -> str:
-        return f"Result({len(self.rows.get('time', ()))} rows, T_max {self.summary.get('T_max_Nmm', float('nan')):.4g} N mm)"
-
     def frame(self):
         """The rows as a pandas.DataFrame. Raises ImportError without pandas."""
         import pandas

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "checks.h"
+#include "softening.h"
 
 using namespace Debond;
 
@@ -128,7 +129,7 @@ check(const std::string    &name,
   std::cout << "  points stick: " << (summary.share_stick > 0.01)
             << ", slip: " << (summary.share_slip > 0.01)
             << ", are open: " << (summary.share_open > 0.01)
-            << ", soften: " << (summary.steepest_softening > 0.01) << std::endl;
+            << ", soften: " << softens(system.interface, 3.5) << std::endl;
 
   // what it is tested against
   Eigen::MatrixXd difference(n, n);

@@ -77,6 +77,7 @@ FNR == 1 {
   if (surface != "nurbs") label = label "; " surface
   if (slave != "implant") label = label "; slave: " slave
   shared = value("seconds_shared_set_up") # a run alone would spend it, too
+  if (shared !~ /^[0-9]/) shared = 0 # it shares with no other variant
   shared += start
   printf "%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s,%s\n", tier, mesh, layers, steps, points, surface, slave,
     value("wall_seconds") + shared, value("seconds_before_steps") + shared, value("seconds_stepping"), value("unknowns"),

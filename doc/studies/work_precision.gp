@@ -49,7 +49,7 @@ do for [format in "png svg"] {
   eval picture(dir . "work_precision", 1300, 1000)
   set xlabel seconds_label
   set ylabel "Largest torque error / {/:Italic T}_{max}"
-  set xrange [0.4:100]
+  set xrange [0.2:100]
   set yrange [1e-5:1]
   set bmargin 10.5
   set key at screen 0.5, 0.01 bottom center maxrows 5 samplen 1.5
@@ -102,7 +102,7 @@ do for [format in "png svg"] {
   eval picture(dir . "work_precision_codes", 1300, 1000)
   set xlabel seconds_label
   set ylabel "Largest torque error up to 1° / {/:Italic T}_{max}"
-  set xrange [0.3:1000]
+  set xrange [0.2:1000]
   set yrange [2e-5:0.2]
   set bmargin 9
   # columns of the key: debond, its meshes, the first of the other codes, the others

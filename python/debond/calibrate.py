@@ -157,7 +157,7 @@ def lines_of(done):
 def _identity(scene, problem):
     """What the results of a calibration belong to."""
     files = (f"# {e.measured.file} {digest_of(e.measured.file)}" for e in problem.done)
-    return "\n".join([_debond.version, _debond.text_of(scene._entries), *files, ""])
+    return "\n".join(["# debond " + _debond.version, _debond.text_of(scene._entries), *files, ""])
 
 
 def why_it_does_not_fit(done) -> str:

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 
 // Static condensation by a sparse Cholesky factorisation: how a body of many
 // unknowns becomes the small matrix S that the contact face feels, section 9 of
@@ -70,8 +71,8 @@ namespace Debond
       common.postorder = !given;
       auto A = Eigen::viewAsCholmod(K.selfadjointView<Eigen::Lower>());
       factor = cholmod_analyze_p(&A, given, nullptr, 0, &common);
-      AssertThrow(factor != nullptr,
-                  dealii::ExcMessage("CHOLMOD's analysis failed"));
+      if (factor == nullptr) // or it has more entries than int can count
+        throw std::bad_alloc();
     }
 
     const int *

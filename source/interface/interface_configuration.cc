@@ -192,11 +192,13 @@ namespace Debond
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
-        if (trial.state.status == PointStatus::open)
+        const bool is_open = trial.state.status == PointStatus::open;
+        if (is_open && !point.accepted.joined) // a share of it may be held
           continue;
-        const bool is_slave = slave == Side::bone;
-        touched[is_slave ? point.element : trial.basis.element] = true;
-        if (!is_slave && slides(trial.state.status))
+        touched[slave == Side::bone ? point.element :
+                is_open             ? bone.element_of(point.accepted.xi) :
+                                      trial.basis.element] = true;
+        if (slave != Side::bone && slides(trial.state.status))
           touched[trial.old_basis.element] = true;
       }
     return control_points_of(bone, touched);

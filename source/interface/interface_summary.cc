@@ -169,9 +169,8 @@ namespace Debond
     for (const SlavePoint &point : points)
       {
         const ContactPointResult &trial = point.trial;
-        summary.n_beyond += point.accepted.has_partner ? 0 : 1;
-        if (point.faces_implant != point.accepted.has_partner)
-          ++summary.n_crossed;
+        summary.n_beyond += !point.accepted.has_partner;
+        summary.n_crossed += point.faces_implant != point.accepted.has_partner;
         if (const CohesiveShare *const share = held_share(point))
           summary.energy += point.JxW * share->energy;
         if (law.joint->pulls() && law.joint->tension.viscosity == 0. &&

@@ -89,11 +89,10 @@ namespace Debond
     response = point.joint().respond(point.start, g_n, distance);
     // It resists as fast as the point moves, and pulls where a trial moves
     // backwards.
-    const double resistance = response.resists ? point.viscous : 0.;
-    limit                   = response.limit + resistance * distance;
-    slope                   = response.limit_by_slip + resistance;
+    resistance = response.resists ? point.viscous : 0.;
+    limit      = response.limit + resistance * distance;
+    slope      = response.limit_by_slip + resistance;
 
-    viscous_traction    = resistance * distance * tau;
     tangential_traction = limit * tau;
     traction            = -response.pressure * normal.n + tangential_traction;
     excess              = gap - traction / eps_t;
@@ -283,8 +282,8 @@ namespace Debond
         const Vector2d bounded = surface.bounded_step(xi, step);
         if (bounded != step && ++pushes > 5)
           return SlipOutcome::left_patch;
-        if (error <= 1e4 * rounding &&
-            std::pow(error, 3) <= rounding * std::pow(before, 2))
+        if (bounded == step && error <= 1e4 * rounding_of_places() &&
+            std::pow(error, 3) <= rounding_of_places() * std::pow(before, 2))
           {
             last_step = bounded;
             break;
@@ -450,6 +449,8 @@ namespace Debond
       tangential +=
         change.head<3>() + more * e.normal.n + response.pressure * n_turns;
     response.pressure += more;
+    if (!last_step.isZero(0.))
+      surface.evaluate(result.state.xi, result.basis, false);
     result.state.gap =
       e.normal.parts(tangential / point.law.tangential_penalty);
     point.carry(response,
@@ -458,7 +459,8 @@ namespace Debond
                 e.g_n + gap,
                 e.distance + change[3],
                 result);
-    result.viscous_traction = e.viscous_traction;
+    result.viscous_traction =
+      e.resistance * (e.distance + change[3]) * tangential.normalized();
     result.slip_increment =
       e.slip + geometry.a1 * last_step[0] + geometry.a2 * last_step[1];
     const auto by_w = e.along_w();
@@ -521,9 +523,17 @@ namespace Debond
   // which are of the size of the surface, and of the sliding distance found
   // from them, which moves the traction.
   inline double
+  SlipProblem::rounding_of_places() const
+  {
+    return 1e-16 * (point.x.norm() + geometry.a1.norm() + geometry.a2.norm());
+  }
+
+
+
+  inline double
   SlipProblem::round_off() const
   {
-    return 1e-16 * (point.x.norm() + geometry.a1.norm() + geometry.a2.norm()) *
+    return rounding_of_places() *
            (1. + std::abs(equations->slope) / point.law.tangential_penalty);
   }
 

@@ -18,7 +18,7 @@ namespace Debond
       for (BodyParameters *const body : {&scene.bone, &scene.implant})
         body->material = std::min(body->material, Material::linear);
       // no traction reaches it: Eq. (39) wants a linear solution
-      scene.interface.friction           = coulomb(1e6);
+      scene.interface.friction           = modified_coulomb({1e6, 1e6});
       scene.interface.friction_starts_at = 0;
       scene.load_steps                   = LoadSteppingParameters();
       scene.load_steps.times             = {0., 1., 2.};

@@ -69,7 +69,7 @@ namespace Debond
         words("Work of adhesion {W_adh_Nmm} N mm from the curve, {D_adh_Nmm} "
               "N mm by the law");
       if (adhesion.empty() && number_in(summary, "D_adh_Nmm") != 0.)
-        adhesion = words("Work on adhesion {D_adh_Nmm} N mm by the law");
+        adhesion = words("Work of adhesion {D_adh_Nmm} N mm by the law");
       std::string effort = filled(summary, "{wall_seconds} s", 2);
       if (!effort.empty())
         effort +=

@@ -143,21 +143,6 @@ namespace Debond
 
 
 
-  namespace
-  {
-    /** Memory of the machine when the program began [GB], so that the choice is
-     *  the same at all times. */
-    double
-    memory_of_machine()
-    {
-      static const double MB = available_memory_MB();
-      return 1e-3 * MB / Ranks::number_on_this_machine();
-    }
-
-  } // namespace
-
-
-
   // Where memory is enough factors mostly win: they are made once, and an
   // iteration with them costs next to nothing.
   std::string
@@ -169,12 +154,16 @@ namespace Debond
       return "as asked for";
     if (bone.bulk_solver != BulkSolver::automatic)
       return "";
-    const double factors =
-      MemoryEstimate(*this, BulkSolver::direct, false).bone;
-    if (factors > 0.9 * memory_of_machine())
-      return "as factors would take some " + to_text(factors, 2) +
-             " GB of memory, of " + to_text(memory_of_machine(), 2);
-    return "";
+    // What the machine had when it was asked first [GB], so that the choice is
+    // the same at all times. CHOLMOD counts entries by int: 17 GB.
+    static const double machine = 1e-3 * available_memory_MB();
+    const double        most    = std::min(0.9 * machine, 16.),
+                 factors =
+                   MemoryEstimate(*this, BulkSolver::direct, false).bone;
+    return factors <= most ?
+             "" :
+             "as factors would take some " + to_text(factors, 2) +
+               " GB of memory, and may take " + to_text(most, 2);
   }
 
 

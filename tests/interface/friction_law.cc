@@ -138,15 +138,16 @@ main()
   check("Values of the second data set", parameters, 1.);
 
   const double mu_b     = ModifiedCoulombParameters().mu_broken;
-  const auto   constant = coulomb()->coefficient({1., {0.01}}, 0.02);
+  const auto   coulomb  = modified_coulomb({mu_b, mu_b});
+  const auto   constant = coulomb->coefficient({1., {0.01}}, 0.02);
   report("Coulomb: mu_b everywhere",
          constant.mu == mu_b && constant.dmu == 0. &&
-           coulomb()->coefficient({}, 0.).mu == mu_b &&
-           coulomb()->steepest_fall({}, 1.) == 0. &&
-           coulomb()->work({}, 1., 1.).friction == mu_b);
+           coulomb->coefficient({}, 0.).mu == mu_b &&
+           coulomb->steepest_fall({}, 1.) == 0. &&
+           coulomb->work({}, 1., 1.).friction == mu_b);
   report("  its bond still decays",
-         coulomb()->coefficient({}, 0.).phi == 1. &&
-           coulomb()->coefficient({}, 1.).phi == 0.);
+         coulomb->coefficient({}, 0.).phi == 1. &&
+           coulomb->coefficient({}, 1.).phi == 0.);
   const auto none = modified_coulomb({}, ModifiedCoulomb::Coefficients::none);
   report("Frictionless: zero",
          none->coefficient({}, 0.).mu == 0. &&

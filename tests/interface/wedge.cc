@@ -192,7 +192,7 @@ check_constant_friction()
                                        std::array<double, 2>{{1e4, 200}}})
       {
         ContactPointLaw law;
-        law.joint              = friction_under_pressure(eps_n, coulomb(mu));
+        law.joint = friction_under_pressure(eps_n, modified_coulomb({mu, mu}));
         law.tangential_penalty = eps_t;
         Wedge wedge(slope, law, G);
 

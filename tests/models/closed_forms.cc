@@ -85,7 +85,7 @@ check_constant_friction()
   auto coulomb      = paper();
   coulomb.pressure  = 1200 * 2.6 / 585;
   coulomb.stiffness = 300;
-  coulomb.friction  = Debond::coulomb();
+  coulomb.friction  = modified_coulomb({0.4, 0.4});
   auto equal        = coulomb;
   equal.friction    = modified_coulomb({0.4, 0.4});
   auto unbonded     = coulomb;

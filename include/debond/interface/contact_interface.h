@@ -209,12 +209,6 @@ namespace Debond
       return slave;
     }
 
-    bool
-    is_curved() const
-    {
-      return !master_is_flat;
-    }
-
     /** Faces every point with its closest point on the master. */
     void
     initialise(const InterfaceConfiguration &configuration);

@@ -66,13 +66,5 @@ namespace Debond
   modified_coulomb(ModifiedCoulombParameters     parameters = {},
                    ModifiedCoulomb::Coefficients coefficients =
                      ModifiedCoulomb::Coefficients::two);
-
-  /** Coulomb's law, whose @p mu no bond changes. The bond is reported as with
-   *  the default of Eq. (13). */
-  inline FrictionLawPointer
-  coulomb(const double mu = ModifiedCoulombParameters().mu_broken)
-  {
-    return modified_coulomb({mu, mu});
-  }
 } // namespace Debond
 #endif

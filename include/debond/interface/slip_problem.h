@@ -111,8 +111,7 @@ namespace Debond
     // the part of g - t_t / eps_t [mm] along a_alpha, and of the excess. The
     // response is that at the updated sliding distance, Eq. (32). Tractions are
     // those that enter the slave's residual, in space [MPa], t = -p n + t_t:
-    // minus those that act on the slave. The viscous part is kept apart for the
-    // works.
+    // minus those that act on the slave.
     Eigen::Vector2d    h;
     double             g_n; ///< [mm]
     InterfaceResponse  response;
@@ -120,7 +119,8 @@ namespace Debond
     Eigen::Vector3d    slip;     ///< y - y_n [mm]
     double             distance; ///< g_s - g_s^n [mm]
     double             slope;    ///< d(L + eta / dt * distance) by it [MPa/mm]
-    Eigen::Vector3d    traction, tangential_traction, viscous_traction;
+    double             resistance; ///< eta / dt, if it resists [MPa/mm]
+    Eigen::Vector3d    traction, tangential_traction;
     /** What the step comes to where slip is integrated over it. */
     std::optional<TowedGap> towed;
 
@@ -264,6 +264,8 @@ namespace Debond
     evaluate_in(const NurbsSurface::Place &place, SurfaceBasis &basis);
     double
     distance_error(const std::array<bool, 2> &held = {{false, false}}) const;
+    double
+    rounding_of_places() const;
     double
     round_off() const;
     bool

@@ -33,8 +33,8 @@ namespace Debond
   double
   viscous_stiffness(const ContactPointLaw &law, const ContactPointMode &mode);
 
-  /** A point that is open whatever its gap, for that it is beyond the edge of
-   *  the master: writes @p result, with the gap @p g_n [mm] for output. */
+  /** Writes the @p result of a point that is open, with the gap @p g_n [mm] for
+   *  output: 0 beyond the edge of the master. */
   void
   leave_open(const ContactPointLaw   &law,
              const ContactPointState &old_state,

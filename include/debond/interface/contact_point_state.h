@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-
 namespace Debond
 {
   /** Numbers as they appear in the VTU array `state`. */

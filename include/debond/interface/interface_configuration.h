@@ -97,8 +97,9 @@ namespace Debond
     const NurbsSurface           &implant,
     const InterfaceConfiguration &configuration);
 
-  /** Elements of the @p bone that closed ones of the @p points lie on in their
-   *  trial states. */
+  /** Control points of the elements of the @p bone on which the @p points are
+   *  closed in their trial states, or have been: a share of these may be held.
+   */
   std::vector<bool>
   touched_bone_control_points(const NurbsSurface            &bone,
                               const std::vector<SlavePoint> &points,

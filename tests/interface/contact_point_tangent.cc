@@ -265,6 +265,8 @@ check_equations(const Question           &question,
   grow(found.equations, std::abs(result.pressure - response.pressure));
   grow(found.equations,
        (result.traction + result.pressure * at.n - eps_t * g_t).norm());
+  grow(found.equations,
+       eps_t * (interpolate(result.basis, *master.positions) - at.y).norm());
   const double at_rest =
     limit(law.respond(question.begin(), (question.x - old.y).dot(old.n), 0.),
           0.);

@@ -109,8 +109,7 @@ namespace Debond
       cell.surface_element,
       parameters_at(space.surface().element_bounds(cell.surface_element),
                     {xi, eta}),
-      basis,
-      false);
+      basis);
     return basis;
   }
 

@@ -57,9 +57,9 @@ namespace Debond
         : element(element)
         , xi(xi)
       {
-        SurfaceBasis basis;
-        problem.surface.evaluate_in_element(element, xi, basis, true);
-        contract(basis, problem.control_points, true, y);
+        CurvedBasis basis;
+        problem.surface.evaluate_in_element(element, xi, basis);
+        contract(basis, problem.control_points, y);
         r         = problem.x - y.y;
         gradient  = Vector2d(-r.dot(y.a1), -r.dot(y.a2));
         lengths   = Vector2d(y.a1.norm(), y.a2.norm());
@@ -457,7 +457,7 @@ namespace Debond
         {
           const Vector2d t(0.02 + 0.48 * (k % 3), 0.02 + 0.48 * (k / 3));
           const Vector2d xi = box[0] + t.cwiseProduct(box[1] - box[0]);
-          problem.surface.evaluate_in_element(element, xi, basis, false);
+          problem.surface.evaluate_in_element(element, xi, basis);
           const Vector3d r =
             problem.x - interpolate(basis, problem.control_points);
           samples[k] = {element, bound, r.squaredNorm(), xi};

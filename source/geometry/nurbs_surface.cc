@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 namespace Debond
 {
@@ -17,13 +18,14 @@ namespace Debond
      * with W = sum_B w_B N_B. The derivatives follow from those of R_A W = w_A
      * N_A. The degree is a template argument for the loops to be unrolled.
      */
-    template <unsigned int p, bool second_derivatives>
+    template <unsigned int p, class Basis>
     void
     fill_basis(const BernsteinValues     &first,
                const BernsteinValues     &second,
                const std::vector<double> *weights,
-               SurfaceBasis              &basis)
+               Basis                     &basis)
     {
+      constexpr bool second_derivatives = std::is_same_v<Basis, CurvedBasis>;
       constexpr unsigned int n = p + 1, size = n * n;
       basis.size = size;
       for (unsigned int j = 0; j < n; ++j)
@@ -33,7 +35,7 @@ namespace Debond
             basis.N[k]           = first.B[i] * second.B[j];
             basis.N_1[k]         = first.dB[i] * second.B[j];
             basis.N_2[k]         = first.B[i] * second.dB[j];
-            if (second_derivatives)
+            if constexpr (second_derivatives)
               {
                 basis.N_11[k] = first.ddB[i] * second.B[j];
                 basis.N_12[k] = first.dB[i] * second.dB[j];
@@ -50,7 +52,7 @@ namespace Debond
           W += basis.N[k] *= w;
           W_1 += basis.N_1[k] *= w;
           W_2 += basis.N_2[k] *= w;
-          if (second_derivatives)
+          if constexpr (second_derivatives)
             {
               W_11 += basis.N_11[k] *= w;
               W_12 += basis.N_12[k] *= w;
@@ -65,14 +67,15 @@ namespace Debond
             (basis.N_1[k] - R * W_1) * inverse_W;
           const double R_2 = basis.N_2[k] =
             (basis.N_2[k] - R * W_2) * inverse_W;
-          if (!second_derivatives)
-            continue;
-          basis.N_11[k] =
-            (basis.N_11[k] - 2. * R_1 * W_1 - R * W_11) * inverse_W;
-          basis.N_12[k] =
-            (basis.N_12[k] - R_1 * W_2 - R_2 * W_1 - R * W_12) * inverse_W;
-          basis.N_22[k] =
-            (basis.N_22[k] - 2. * R_2 * W_2 - R * W_22) * inverse_W;
+          if constexpr (second_derivatives)
+            {
+              basis.N_11[k] =
+                (basis.N_11[k] - 2. * R_1 * W_1 - R * W_11) * inverse_W;
+              basis.N_12[k] =
+                (basis.N_12[k] - R_1 * W_2 - R_2 * W_1 - R * W_12) * inverse_W;
+              basis.N_22[k] =
+                (basis.N_22[k] - 2. * R_2 * W_2 - R * W_22) * inverse_W;
+            }
         }
     }
   } // namespace
@@ -157,68 +160,76 @@ namespace Debond
 
   // A point of a side of a face, where it is in the face beyond.
   void
-  NurbsSurface::evaluate(const Eigen::Vector2d &xi,
-                         SurfaceBasis          &basis,
-                         const bool             second_derivatives) const
+  NurbsSurface::evaluate(const Eigen::Vector2d &xi, SurfaceBasis &basis) const
   {
     const Eigen::Vector2d inside = clamped(xi);
-    evaluate_in_element(element_of(inside), inside, basis, second_derivatives);
+    evaluate_in_element(element_of(inside), inside, basis);
   }
 
 
 
-  namespace
+  void
+  KeptBasis::move_to(const NurbsSurface    &new_surface,
+                     const Eigen::Vector2d &new_xi)
   {
-    /** B-splines of a span over its own parameter, which runs from 0 to 1. */
-    BernsteinValues
-    in_own_parameter(const KnotVector  &knots,
-                     const unsigned int span,
-                     const double       local)
-    {
-      const double begin     = knots.breakpoints()[span],
-                   width     = knots.breakpoints()[span + 1] - begin;
-      BernsteinValues result = knots.evaluate(span, begin + local * width);
+    if (surface == &new_surface && xi == new_xi)
+      return;
+    new_surface.evaluate(new_xi, *this);
+    surface = &new_surface;
+    xi      = new_xi;
+  }
+
+
+
+  // B-splines of both parameters. Those of a face are functions of a parameter
+  // of its own, which runs from 0 to 1.
+  template <class Basis>
+  void
+  NurbsSurface::fill(const unsigned int     element,
+                     const Eigen::Vector2d &xi,
+                     Basis                 &basis) const
+  {
+    assert(element < n_elements());
+    const auto splines = [&](const unsigned int d) -> BernsteinValues {
+      if (is_one_patch())
+        {
+          const unsigned int n = knot_vectors[0].n_spans();
+          return knot_vectors[d].evaluate(d == 0 ? element % n : element / n,
+                                          xi[d]);
+        }
+      const Face       &face  = faces[element];
+      const KnotVector &knots = patch_knots[face.patch][d];
+      const double     *ends  = &knots.breakpoints()[face.span[d]];
+      const double      width = ends[1] - ends[0];
+      BernsteinValues   result =
+        knots.evaluate(face.span[d],
+                       ends[0] + (xi[d] - lowest_of_face(element)[d]) * width);
       result.dB *= width;
       result.ddB *= width * width;
       return result;
-    }
-  } // namespace
-
-
+    };
+    basis.element             = element;
+    basis.control_point       = element_control_points(element);
+    const auto *const weights = is_rational ? &weight : nullptr;
+    (degree() == 2 ?
+       fill_basis<2, Basis> :
+       fill_basis<1, Basis>)(splines(0), splines(1), weights, basis);
+  }
 
   void
   NurbsSurface::evaluate_in_element(const unsigned int     element,
                                     const Eigen::Vector2d &xi,
-                                    SurfaceBasis          &basis,
-                                    const bool second_derivatives) const
+                                    SurfaceBasis          &basis) const
   {
-    assert(element < n_elements());
-    BernsteinValues splines1, splines2;
-    if (is_one_patch())
-      {
-        const unsigned int n = knot_vectors[0].n_spans();
-        splines1             = knot_vectors[0].evaluate(element % n, xi[0]);
-        splines2             = knot_vectors[1].evaluate(element / n, xi[1]);
-      }
-    else
-      {
-        const Face           &face  = faces[element];
-        const auto           &knots = patch_knots[face.patch];
-        const Eigen::Vector2d local = xi - lowest_of_face(element);
-        splines1 = in_own_parameter(knots[0], face.span[0], local[0]);
-        splines2 = in_own_parameter(knots[1], face.span[1], local[1]);
-      }
+    fill(element, xi, basis);
+  }
 
-    basis.element             = element;
-    basis.control_point       = element_control_points(element);
-    const auto *const weights = is_rational ? &weight : nullptr;
-    if (second_derivatives)
-      (degree() == 2 ? fill_basis<2, true> :
-                       fill_basis<1, true>)(splines1, splines2, weights, basis);
-    else
-      (degree() == 2 ?
-         fill_basis<2, false> :
-         fill_basis<1, false>)(splines1, splines2, weights, basis);
+  void
+  NurbsSurface::evaluate_in_element(const unsigned int     element,
+                                    const Eigen::Vector2d &xi,
+                                    CurvedBasis           &basis) const
+  {
+    fill(element, xi, basis);
   }
 
 
@@ -256,7 +267,7 @@ namespace Debond
   NurbsSurface::point(const Eigen::Vector2d &xi) const
   {
     SurfaceBasis basis;
-    evaluate(xi, basis, false);
+    evaluate(xi, basis);
     return interpolate(basis, points);
   }
 

@@ -7,11 +7,10 @@ namespace Debond
   void
   contract(const SurfaceBasis &basis,
            const ControlNet   &control_points,
-           const bool          second_derivatives,
            SurfaceGeometry    &geometry)
   {
     using Eigen::Vector3d;
-    Vector3d y = Vector3d::Zero(), a1 = y, a2 = y, a11 = y, a12 = y, a22 = y;
+    Vector3d y = Vector3d::Zero(), a1 = y, a2 = y;
     for (unsigned int k = 0; k < basis.size; ++k)
       {
         const Vector3d p = control_points.col(basis.control_point[k]);
@@ -19,14 +18,30 @@ namespace Debond
         a1 += basis.N_1[k] * p;
         a2 += basis.N_2[k] * p;
       }
-    for (unsigned int k = 0; second_derivatives && k < basis.size; ++k)
+    const Vector3d zero = Vector3d::Zero();
+    geometry            = {y, a1, a2, zero, zero, zero};
+  }
+
+  void
+  contract(const CurvedBasis &basis,
+           const ControlNet  &control_points,
+           SurfaceGeometry   &geometry)
+  {
+    using Eigen::Vector3d;
+    contract(static_cast<const SurfaceBasis &>(basis),
+             control_points,
+             geometry);
+    Vector3d a11 = Vector3d::Zero(), a12 = a11, a22 = a11;
+    for (unsigned int k = 0; k < basis.size; ++k)
       {
         const Vector3d p = control_points.col(basis.control_point[k]);
         a11 += basis.N_11[k] * p;
         a12 += basis.N_12[k] * p;
         a22 += basis.N_22[k] * p;
       }
-    geometry = {y, a1, a2, a11, a12, a22};
+    geometry.a11 = a11;
+    geometry.a12 = a12;
+    geometry.a22 = a22;
   }
 
 
@@ -57,9 +72,9 @@ namespace Debond
         point.xi                      = bounds[0] +
                    size.cwiseProduct(Eigen::Vector2d(quadrature.point(q)[0],
                                                      quadrature.point(q)[1]));
-        surface.evaluate_in_element(element, point.xi, point.basis, false);
+        surface.evaluate_in_element(element, point.xi, point.basis);
         SurfaceGeometry geometry;
-        contract(point.basis, surface.control_points(), false, geometry);
+        contract(point.basis, surface.control_points(), geometry);
         point.X   = geometry.y;
         point.JxW = geometry.a1.cross(geometry.a2).norm() * size.prod() *
                     quadrature.weight(q);

@@ -28,8 +28,8 @@ namespace Debond
     if (!holds)
       return;
     SurfaceGeometry geometry;
-    master.surface->evaluate(xi, basis, false);
-    contract(basis, *master.positions, false, geometry);
+    master.surface->evaluate(xi, basis);
+    contract(basis, *master.positions, geometry);
     const MasterNormal of_master(geometry, master.outward_sign);
     const Vector3d    &n      = of_master.n;
     const Vector3d     whole  = x - geometry.y;

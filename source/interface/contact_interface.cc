@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 // The points of the interface in a step. Newton's method calls evaluate() with
 // the surfaces where it has put them: every slave point is updated by itself,
@@ -232,8 +233,8 @@ namespace Debond
           return {master.outward_sign * Q.col(2), true};
         SurfaceBasis    basis;
         SurfaceGeometry geometry;
-        surface.evaluate(xi, basis, false);
-        contract(basis, surface.control_points(), false, geometry);
+        surface.evaluate(xi, basis);
+        contract(basis, surface.control_points(), geometry);
         return {Q * MasterNormal(geometry, master.outward_sign).n,
                 master.is_flat};
       }
@@ -362,11 +363,11 @@ namespace Debond
           leave_open(law, point.accepted, result);
           return;
         }
-      const ContactPointState start = point.accepted.has_partner ?
-                                        point.accepted :
-                                        entry(point, configuration);
+      std::optional<ContactPointState> entered;
+      if (!point.accepted.has_partner)
+        entered = entry(point, configuration);
       step.update(point,
-                  start,
+                  entered ? *entered : point.accepted,
                   interpolate(point.basis, accepted_positions[slave]),
                   of_rest,
                   result);
@@ -510,15 +511,14 @@ namespace Debond
       return Eigen::Vector3d(interpolate(point.basis, at[slave]) -
                              interpolate(y, at[master_side()]));
     };
-    const SurfaceBasis &old_basis =
-      slides(trial.state.status) ? trial.old_basis : trial.basis;
     const Eigen::Vector3d old_t = old_Q * point.accepted_traction,
                           m     = gap(accepted_positions, trial.basis) -
                               trial.traction / eps_t,
-                          along_n = gap(before, old_basis) - old_t / eps_t;
-    const PointStart start        = point.begin(*law.joint, mode_now);
-    const double     p            = law.joint->respond(start, h, 0.).pressure;
-    double           work         = 0.;
+                          along_n =
+                            gap(before, trial.old_basis) - old_t / eps_t;
+    const PointStart start = point.begin(*law.joint, mode_now);
+    const double     p     = law.joint->respond(start, h, 0.).pressure;
+    double           work  = 0.;
     if (h != 0. && m.norm() > mode_now.touch_tolerance)
       work = m.dot(old_t) -
              (1. + p / (eps_t * h)) * along_n.dot(trial.tangential_traction);

@@ -59,8 +59,8 @@ namespace Debond
     // Eq. (24), has no direction.
     SurfaceBasis    basis;
     SurfaceGeometry geometry;
-    master.surface->evaluate(closest.xi, basis, false);
-    contract(basis, *master.positions, false, geometry);
+    master.surface->evaluate(closest.xi, basis);
+    contract(basis, *master.positions, geometry);
     constexpr double smallest_angle = 0.01; // between the tangents
     const bool       regular =
       geometry.a1.cross(geometry.a2).norm() >
@@ -170,6 +170,7 @@ namespace Debond
       const ContactPointState &start = point.before;
       result.state                   = start;
       result.state.status            = PointStatus::stick;
+      result.basis                   = result.old_basis;
       result.state.gap               = normal.parts(gap);
       point.carry(response, n, eps_t * (gap - g_n * n), g_n, 0., result);
       result.slip_increment = result.viscous_traction = Vector3d::Zero();
@@ -214,17 +215,14 @@ namespace Debond
                   const double        limit,
                   ContactPointResult &result)
     {
-      // y(xi_hat^n) moves with the master too, and the slip y(xi_hat) -
-      // y(xi_hat^n) with both: its basis is kept for the tangent.
       const ContactPointState &start = point.before;
-      result.old_basis               = result.basis;
-      SlipProblem  problem(point);
-      const double elastic = limit / point.law.tangential_penalty,
-                   length  = tangential_gap.norm();
+      SlipProblem              problem(point);
+      const double             elastic = limit / point.law.tangential_penalty,
+                   length              = tangential_gap.norm();
       const double slip    = length > 0. ? 1. - elastic / length : 0.;
       SlipOutcome  outcome = problem.solve(
-        point.master.surface->moved(start.xi, slip * old.parts(tangential_gap)),
-        result);
+        point.master.surface->moved(start.xi,
+                                    slip * old.parts(tangential_gap)));
       // The projection is near the solution wherever the tangential gap is
       // small, however far xi_hat^n is, and starting there costs one more
       // search. A point whose projection is beyond the edge has left the
@@ -235,7 +233,7 @@ namespace Debond
           const Projection projection =
             project(point.master, point.x, &start.xi);
           if (projection.converged)
-            outcome = projection.faces ? problem.solve(projection.xi, result) :
+            outcome = projection.faces ? problem.solve(projection.xi) :
                                          SlipOutcome::left_patch;
           // What viscosity carries ends at once where the pressure does. A
           // point that climbs as it slides may find no place on either side
@@ -252,9 +250,7 @@ namespace Debond
       const double         g_n = end.g_n;
       if (outcome == SlipOutcome::solved && is_closed(point, g_n, end.distance))
         {
-          const Vector2d xi = result.state.xi;
-          result.state      = start;
-          result.state.xi   = xi;
+          result.state = start;
           result.state.status =
             end.response.pressure < 0. && end.response.limit == 0. ?
               PointStatus::pulled :
@@ -301,8 +297,8 @@ namespace Debond
     // The gap to the old interacting point, Eq. (26) at xi_hat^n, where that is
     // now; and its normal part, Eq. (27), along the normal of Eq. (24).
     SurfaceGeometry geometry;
-    master.surface->evaluate(start.xi, result.basis, false);
-    contract(result.basis, *master.positions, false, geometry);
+    result.old_basis.move_to(*master.surface, start.xi);
+    contract(result.old_basis, *master.positions, geometry);
     const Vector3d     gap = x - geometry.y;
     const MasterNormal normal(geometry, master.outward_sign);
     const double       g_n = normal.n.dot(gap);

@@ -33,7 +33,7 @@ namespace Debond
       for (const auto &middle : middles)
         {
           SurfaceGeometry here;
-          contract(middle.basis, surface.control_points(), false, here);
+          contract(middle.basis, surface.control_points(), here);
           const Eigen::Vector3d n = here.a1.cross(here.a2).normalized();
           for (const unsigned int d : {0, 1})
             {

@@ -162,8 +162,7 @@ namespace Debond
             parameters_at(implant.element_bounds(element),
                           {k % (samples + 1) / double(samples),
                            k / (samples + 1) / double(samples)}),
-            basis,
-            false);
+            basis);
           const ClosestPoint closest = closest_point(
             bone,
             configuration.side[Side::bone].positions,

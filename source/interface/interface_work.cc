@@ -250,8 +250,8 @@ namespace Debond
     const MasterSurface surface = master(configuration);
     SurfaceBasis        basis;
     SurfaceGeometry     geometry;
-    surface.surface->evaluate(point.accepted.xi, basis, false);
-    contract(basis, *surface.positions, false, geometry);
+    surface.surface->evaluate(point.accepted.xi, basis);
+    contract(basis, *surface.positions, geometry);
     const Eigen::Vector3d n = MasterNormal(geometry, surface.outward_sign).n;
     return {n,
             interpolate(point.basis, configuration.side[slave].positions) -

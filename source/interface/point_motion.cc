@@ -30,8 +30,8 @@ namespace Debond
   PointMotion::PointMotion(const SlavePoint   &point,
                            const SurfaceBasis &held,
                            const Side          slave)
-    : slave(slave)
-    , slides(false)
+    : slides(false)
+    , slave(slave)
     , n_slave(point.basis.size)
     , n_master(held.size)
     , of_slave(point.basis.control_point)
@@ -148,7 +148,7 @@ namespace Debond
     const auto   w      = motion.gather(u);
     const double turn   = chuck.dot(turn_by_chuck);
     Vector4d     change = turn * dt_dxi_1.col(W::turn); // JxW dt, dxi^1
-    for (unsigned int k = 0; k < (motion.has_slid() ? 5 : 3); ++k)
+    for (unsigned int k = 0; k < (motion.slides ? 5 : 3); ++k)
       {
         const Vector4d part = w(0, k) * dt_dxi_1.col(3 * k) +
                               w(1, k) * dt_dxi_1.col(3 * k + 1) +

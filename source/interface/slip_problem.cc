@@ -262,14 +262,14 @@ namespace Debond
   // The last step needs no evaluation, see report(), where |h| is small and
   // falls so fast that what is left after that step is rounding.
   SlipOutcome
-  SlipProblem::solve(const Vector2d &start, ContactPointResult &result)
+  SlipProblem::solve(const Vector2d &start)
   {
     constexpr unsigned int max_iterations = 30;
     Vector2d               xi             = start;
     double                 before         = 0.; // error of the last iteration
     held                                  = {{false, false}};
     last_step.setZero();
-    evaluate(xi, result.basis);
+    evaluate(xi);
     unsigned int pushes = 0;
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
@@ -294,17 +294,17 @@ namespace Debond
         if (error <= 16. * rounding)
           {
             xi = surface.moved(xi, bounded);
-            evaluate(xi, result.basis);
+            evaluate(xi);
             break;
           }
-        if (!search_along(bounded, error, xi, result.basis))
+        if (!search_along(bounded, error, xi))
           break;
         before = error;
       }
     if (last_step.isZero(0.) && distance_error() > 100. * round_off())
-      return surface.has_ridges() ? solve_with_ridges(xi, result) :
+      return surface.has_ridges() ? solve_with_ridges(xi) :
                                     SlipOutcome::not_found;
-    result.state.xi = surface.moved(xi, last_step);
+    xi_hat = surface.moved(xi, last_step);
     return SlipOutcome::solved;
   }
 
@@ -339,13 +339,12 @@ namespace Debond
   // and what is left to solve is along it. The equations across are missed by
   // the gap along the normal times the angle, a small part of the elastic gap.
   SlipOutcome
-  SlipProblem::solve_with_ridges(const Vector2d     &start,
-                                 ContactPointResult &result)
+  SlipProblem::solve_with_ridges(const Vector2d &start)
   {
     constexpr unsigned int max_iterations = 60;
     constexpr double       negligible     = 1e-13; // of a parameter
     NurbsSurface::Place    now{surface.element_of(start), start};
-    evaluate_in(now, result.basis);
+    evaluate_in(now);
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
         const auto        box  = surface.element_bounds(now.element);
@@ -358,7 +357,7 @@ namespace Debond
         if (step > negligible && distance_error(here.beyond) > round_off())
           {
             now.xi = target;
-            evaluate_in(now, result.basis);
+            evaluate_in(now);
             continue;
           }
         // solved within the element, or at a side that the equations lead over
@@ -367,7 +366,7 @@ namespace Debond
           for (const NurbsSurface::Place &beside :
                surface.places_beside(now.element, now.xi))
             {
-              evaluate_in(beside, result.basis);
+              evaluate_in(beside);
               const ElementStep there = step_in_element(beside);
               if (there.step.allFinite() && !there.beyond[0] &&
                   !there.beyond[1] &&
@@ -380,12 +379,12 @@ namespace Debond
             }
         if (moved)
           continue;
-        evaluate_in(now, result.basis);
+        evaluate_in(now);
         const auto end = surface.end_of_surface(now.element, now.xi);
         if ((here.beyond[0] && end[0] != 0) || (here.beyond[1] && end[1] != 0))
           return SlipOutcome::left_patch;
-        held            = here.beyond;
-        result.state.xi = now.xi;
+        held   = here.beyond;
+        xi_hat = now.xi;
         return SlipOutcome::solved;
       }
     return SlipOutcome::not_found;
@@ -399,19 +398,18 @@ namespace Debond
   bool
   SlipProblem::search_along(const Vector2d &step,
                             const double    error,
-                            Vector2d       &xi,
-                            SurfaceBasis   &basis)
+                            Vector2d       &xi)
   {
     const Vector2d old = xi;
     for (double fraction = 1.; fraction > 0.01; fraction *= 0.5)
       {
         xi = surface.moved(old, fraction * step);
-        evaluate(xi, basis);
+        evaluate(xi);
         if (distance_error() < error)
           return true;
       }
     xi = old;
-    evaluate(xi, basis);
+    evaluate(xi);
     return false;
   }
 
@@ -449,8 +447,11 @@ namespace Debond
       tangential +=
         change.head<3>() + more * e.normal.n + response.pressure * n_turns;
     response.pressure += more;
-    if (!last_step.isZero(0.))
-      surface.evaluate(result.state.xi, result.basis, false);
+    result.state.xi = xi_hat;
+    if (last_step.isZero(0.))
+      result.basis = basis;
+    else
+      surface.evaluate(xi_hat, result.basis);
     result.state.gap =
       e.normal.parts(tangential / point.law.tangential_penalty);
     point.carry(response,
@@ -500,19 +501,18 @@ namespace Debond
   // Second derivatives of the surface are needed for along_surface() only, but
   // there in every iteration.
   inline void
-  SlipProblem::evaluate(const Vector2d &xi, SurfaceBasis &basis)
+  SlipProblem::evaluate(const Vector2d &xi)
   {
-    evaluate_in({surface.element_of(xi), xi}, basis);
+    evaluate_in({surface.element_of(xi), xi});
   }
 
 
 
   inline void
-  SlipProblem::evaluate_in(const NurbsSurface::Place &place,
-                           SurfaceBasis              &basis)
+  SlipProblem::evaluate_in(const NurbsSurface::Place &place)
   {
-    surface.evaluate_in_element(place.element, place.xi, basis, true);
-    contract(basis, *point.master.positions, true, geometry);
+    surface.evaluate_in_element(place.element, place.xi, basis);
+    contract(basis, *point.master.positions, geometry);
     equations.emplace(point, geometry);
     by_xi.reset();
   }

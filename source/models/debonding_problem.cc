@@ -218,13 +218,11 @@ namespace Debond
         const OutputParameters &output = scene.output;
         if (!output.resumable || row.step == 0 || simulation.is_finished())
           return false;
-        double is_late =
-          output.checkpoint_minutes > 0. &&
-          since_checkpoint.wall_time() >= 60. * output.checkpoint_minutes;
-        if (output.checkpoint_minutes > 0.)
-          Ranks::take_largest(&is_late, 1);
-        return is_late > 0. || (output.checkpoint_every > 0 &&
-                                row.step % output.checkpoint_every == 0);
+        const bool is_late = output.checkpoint_minutes > 0. &&
+                             Ranks::largest(since_checkpoint.wall_time()) >=
+                               60. * output.checkpoint_minutes;
+        return is_late || (output.checkpoint_every > 0 &&
+                           row.step % output.checkpoint_every == 0);
       }
 
       void
@@ -332,8 +330,8 @@ namespace Debond
                       {"bonded_area_mm2", bonding.bonded_area},
                       {"bonded_patches", bonding.patches},
                       {"largest_bonded_patch_mm2", bonding.largest_patch},
-                      {"jumps", released.n_jumps()},
-                      {"released_energy_Nmm", released.total()}});
+                      {"jumps", released.n_jumps},
+                      {"released_energy_Nmm", released.total}});
         report.finish(simulation.rows(), simulation.curve_settings(), facts);
         if (!converged)
           return;

@@ -216,9 +216,8 @@ namespace Debond
            comparison.warnings(output.reference_curve))
         console.warn(text, text);
     // of several ranks the largest; a rank that failed may be alone here
-    double peak_memory = peak_memory_MB();
-    if (converged)
-      Ranks::take_largest(&peak_memory, 1);
+    const double peak_memory =
+      converged ? Ranks::largest(peak_memory_MB()) : peak_memory_MB();
     summary.update({{"warnings", console.warnings},
                     {"peak_memory_MB", peak_memory},
                     {"reference_files", files_of_reference},

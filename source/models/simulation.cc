@@ -605,7 +605,7 @@ namespace Debond
     const Chuck::Vector6 machine = in_degrees(chuck.machine_position());
     row.machine_angle_deg        = machine[ChuckComponent::rotation_z];
     row.machine_uz_mm            = machine[ChuckComponent::translation_z];
-    row.released_energy_Nmm      = state_checks.released().total();
+    row.released_energy_Nmm      = state_checks.released().total;
     // Force and moment about the chuck's centre C + u, and where it is.
     row.chuck_reaction = reaction;
     row.chuck_position = q;

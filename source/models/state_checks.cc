@@ -73,14 +73,14 @@ namespace Debond
                  chuck.machine_position(),
                  chuck.machine_energy(forces) + system.bulk_energy() + summary.energy,
                  work.friction,
-                 work.friction_bound + system.press_fit.bound(),
-                 system.press_fit.work()});
+                 work.friction_bound + system.press_fit.bound,
+                 system.press_fit.work});
       const std::string change =
         describe_change(forces_before, forces, system.R);
-      if (released_energy.missing() > 0. && system.interface.get_law().pulls())
+      if (released_energy.missing > 0. && system.interface.get_law().pulls())
         note("step over equilibrium",
              Text() << "in one step " << change << ", and the law dissipates "
-                    << released_energy.missing()
+                    << released_energy.missing
                     << " N mm more than there was: the step went over states "
                        "of equilibrium. Smaller steps do not");
       if (released > 0.)
@@ -95,7 +95,7 @@ namespace Debond
       // what they store; four times, as the pressure's part tells nothing.
       // Against what opens a bond it is that over the square of the tractions.
       const double stored = system.bulk_energy() + chuck.machine_energy(forces);
-      if (released <= 0. && released_energy.may_hide_a_jump() &&
+      if (released <= 0. && released_energy.may_hide_a_jump &&
           (summary.steepest_softening * (summary.energy + 4. * stored) >
              summary.energy ||
            summary.opening_softening * 2. * stored > summary.squared_traction))
@@ -231,7 +231,7 @@ namespace Debond
                           const double         from,
                           const double         to)
   {
-    path.add(system.chuck, from, to, system.press_fit.over_time());
+    path.add(system.chuck, from, to, system.press_fit.interference);
     if (path.missed_share() > ChuckPath::largest_missed_share)
       note(step,
            "way",
@@ -308,8 +308,8 @@ namespace Debond
        system.chuck.position(),
        system.bulk_energy() + summary.energy,
        system.interface.work().dissipation,
-       system.interface.work().dissipation_bound + system.press_fit.bound(),
-       system.press_fit.work()});
+       system.interface.work().dissipation_bound + system.press_fit.bound,
+       system.press_fit.work});
     // Between rigid bodies that are all held where the scene wants them each
     // point has the one state that its law allows. The explicit law does not
     // dissipate what InterfaceWork::friction says.

@@ -276,7 +276,7 @@ namespace Debond
           const Eigen::Vector2d xi =
             parameters_at(surface.element_bounds(element), corners[k]);
           SurfaceBasis basis;
-          surface.evaluate_in_element(element, xi, basis, false);
+          surface.evaluate_in_element(element, xi, basis);
           append_fields(values,
                         interface,
                         grid.stencil(element, xi, false),

@@ -385,7 +385,7 @@ namespace Debond
       }
     modulus = std::make_shared<ModulusField>(
       modulus_expression, std::move(image), corner, radius, bone);
-    young_modulus = modulus->range().mean;
+    young_modulus = modulus->range.mean;
   }
 
 
@@ -393,7 +393,7 @@ namespace Debond
   double
   BodyParameters::softest_modulus() const
   {
-    return modulus ? modulus->range().smallest : young_modulus;
+    return modulus ? modulus->range.smallest : young_modulus;
   }
 
 

@@ -113,11 +113,11 @@ namespace Debond
                              const std::array<double, 3>      &corner,
                              const double                      radius,
                              const Box                        &bone)
-    : text(expression)
+    : is_layered(!voxels && can_be_parsed("z", expression, radius))
+    , text(expression)
     , image(std::move(voxels))
     , bone(bone)
     , of_voxels(box_of(image.get(), corner))
-    , layered(!image && can_be_parsed("z", expression, radius))
     , modulus(parsed(image ? "x,y,z,grey" : "x,y,z", expression, radius))
   {
     if (image && can_be_parsed("x,y,z", expression, radius))
@@ -134,9 +134,9 @@ namespace Debond
             const double value =
               at(bone[0] +
                  part.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5)));
-            range_in_bone.smallest = std::min(range_in_bone.smallest, value);
-            range_in_bone.largest  = std::max(range_in_bone.largest, value);
-            range_in_bone.mean += value / (n * n * n);
+            range.smallest = std::min(range.smallest, value);
+            range.largest  = std::max(range.largest, value);
+            range.mean += value / (n * n * n);
           }
   }
 
@@ -216,18 +216,17 @@ namespace Debond
   std::string
   ModulusField::in_words() const
   {
-    const std::string range =
-      "Young's modulus of the bone: " + to_text(range_in_bone.smallest, 3) +
-      " to " + to_text(range_in_bone.largest, 3) + " MPa, mean " +
-      to_text(range_in_bone.mean, 3);
+    const std::string of_bone =
+      "Young's modulus of the bone: " + to_text(range.smallest, 3) + " to " +
+      to_text(range.largest, 3) + " MPa, mean " + to_text(range.mean, 3);
     if (!image)
-      return range;
+      return of_bone;
     const auto [least, largest] =
       std::minmax_element(image->grey.begin(), image->grey.end());
     return grid_text(image->n) + " voxels of " + grid_text(image->spacing) +
            " mm " + box_text(of_voxels) + ", grey values from " +
            to_text(*least, 6) + " to " + to_text(*largest, 6) +
            "\nThe bone is " + box_text(bone) + "; " + image->order + "\n" +
-           range;
+           of_bone;
   }
 } // namespace Debond

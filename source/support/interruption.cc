@@ -108,9 +108,7 @@ namespace Debond
   int
   interrupting_signal_of_any()
   {
-    double signal = arrived;
-    Ranks::take_largest(&signal, 1);
-    return static_cast<int>(signal);
+    return static_cast<int>(Ranks::largest(arrived));
   }
 
 

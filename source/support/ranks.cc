@@ -261,12 +261,11 @@ namespace Debond
 
 
 
-    void
-    take_largest(double *const values, const std::size_t n)
+    double
+    largest(const double value)
     {
-      if (number() > 1)
-        MPI_Allreduce(
-          MPI_IN_PLACE, values, n, MPI_DOUBLE, MPI_MAX, communicator());
+      return number() > 1 ? dealii::Utilities::MPI::max(value, communicator()) :
+                            value;
     }
 
 
@@ -309,9 +308,7 @@ namespace Debond
           own_words = {std::to_string(own()), what.substr(0, what.find('\n'))};
           others_cannot_throw = std::current_exception();
         }
-      double has_failed = own_words.empty() ? 0. : 1.;
-      take_largest(&has_failed, 1);
-      if (has_failed == 0.)
+      if (largest(own_words.size()) == 0.)
         return;
       const auto all_words =
         dealii::Utilities::MPI::all_gather(communicator(), own_words);

@@ -114,7 +114,7 @@ namespace Debond
       return "the bone is rigid";
     if (!bone.has_equal_splines())
       return "the bone's cells are not splines of equal width";
-    if (bone.modulus && !bone.modulus->is_layered())
+    if (bone.modulus && !bone.modulus->is_layered)
       return "Young's modulus of the bone varies across";
     if (load_steps.follow_path)
       return "a path takes the stiffness as a matrix";

@@ -123,14 +123,14 @@ namespace Debond
         last_motion = motion;
         excess      = put_in - (state.stored - last.stored) -
                  (state.dissipated - last.dissipated);
-        hidden = std::abs(excess) > 1e-3 * 0.5 * change.dot(motion) &&
-                 falls_steeply(state, dq);
-        created = excess < -bound ? -excess : 0.;
+        may_hide_a_jump = std::abs(excess) > 1e-3 * 0.5 * change.dot(motion) &&
+                          falls_steeply(state, dq);
+        missing = excess < -bound ? -excess : 0.;
         if (excess <= bound)
           excess = 0.;
         else // the next step is no part of the jump
           {
-            hidden      = false;
+            may_hide_a_jump = false;
             last_change = last_motion = Chuck::Vector6::Zero();
           }
       }
@@ -139,8 +139,8 @@ namespace Debond
     started  = true;
     last     = state;
     greatest = greatest.cwiseMax(state.forces.cwiseAbs());
-    released += excess;
-    jumps += excess > 0. ? 1 : 0;
+    total += excess;
+    n_jumps += excess > 0. ? 1 : 0;
     return excess;
   }
 

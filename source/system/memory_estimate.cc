@@ -140,8 +140,8 @@ namespace Debond
 
       // four blocks, each of a quarter of the body, if it is its own mirror
       // image
-      const bool is_one_block = body.has_large_strains() ||
-                                (body.modulus && !body.modulus->is_layered());
+      const bool is_one_block =
+        body.has_large_strains() || (body.modulus && !body.modulus->is_layered);
       const double parts = is_one_block ? 1. : 2., p = is_quadratic ? 2. : 1.,
                    layers = is_spline ? 2. : 1., // that part a box
         share             = share_in_contact(model, side);

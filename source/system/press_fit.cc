@@ -43,9 +43,8 @@ namespace Debond
       return;
     // conjugate to `half': work per thickness, over all control points [N]
     const double force = forces.cwiseProduct(outwards).sum();
-    accepted_work += 0.5 * (accepted_force + force) * (half - accepted_half);
-    accepted_bound +=
-      0.5 * std::abs((force - accepted_force) * (half - accepted_half));
+    work += 0.5 * (accepted_force + force) * (half - accepted_half);
+    bound += 0.5 * std::abs((force - accepted_force) * (half - accepted_half));
     accepted_force = force;
     accepted_half  = half;
   }

@@ -74,8 +74,7 @@ local_gradients(const BulkSpace       &mesh,
       mesh.surface().evaluate_in_element(cell.surface_element,
                                          {bounds[0][0] + h_1 * (1. + point[0]),
                                           bounds[0][1] + h_2 * (1. + point[1])},
-                                         basis,
-                                         false);
+                                         basis);
       if (mesh.has_splines())
         {
           const auto           &ends = mesh.depth().breakpoints();

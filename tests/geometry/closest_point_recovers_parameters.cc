@@ -86,8 +86,8 @@ geometry_at(const NurbsSurface &surface,
 {
   SurfaceBasis    basis;
   SurfaceGeometry geometry;
-  surface.evaluate(xi, basis, true);
-  contract(basis, net, true, geometry);
+  surface.evaluate(xi, basis);
+  contract(basis, net, geometry);
   return geometry;
 }
 

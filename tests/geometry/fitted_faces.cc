@@ -29,7 +29,7 @@ measures(const NurbsSurface &face)
   for (const auto &point : surface_quadrature(face, dealii::QGauss<1>(12)))
     {
       SurfaceGeometry geometry;
-      contract(point.basis, face.control_points(), false, geometry);
+      contract(point.basis, face.control_points(), geometry);
       const Eigen::Vector3d normal = geometry.a1.cross(geometry.a2);
       result.area += point.JxW;
       grow(result.tilt,
@@ -43,7 +43,7 @@ std::map<unsigned int, Eigen::Vector3d>
 functions(const NurbsSurface &face, const NurbsSurface::Place &place)
 {
   SurfaceBasis basis;
-  face.evaluate_in_element(place.element, place.xi, basis, false);
+  face.evaluate_in_element(place.element, place.xi, basis);
   Eigen::Matrix2d J = Eigen::Matrix2d::Zero();
   for (unsigned int a = 0; a < basis.size; ++a)
     J += face.control_points().col(basis.control_point[a]).head<2>() *

@@ -97,7 +97,7 @@ compare(const NurbsSurface    &surface,
         Deviation             &deviation)
 {
   SurfaceBasis basis;
-  surface.evaluate(xi, basis, true);
+  surface.evaluate(xi, basis);
   std::vector<std::array<double, 6>> ours(surface.n_control_points(),
                                           std::array<double, 6>{});
   for (unsigned int k = 0; k < basis.size; ++k)

@@ -68,8 +68,8 @@ check_area_and_normals(const NurbsSurface &disk)
           const Eigen::Vector2d t(gauss.point(q)[0], gauss.point(q)[1]);
           SurfaceBasis          basis;
           SurfaceGeometry       geometry;
-          disk.evaluate(bounds[0] + t.cwiseProduct(size), basis, false);
-          contract(basis, disk.control_points(), false, geometry);
+          disk.evaluate(bounds[0] + t.cwiseProduct(size), basis);
+          contract(basis, disk.control_points(), geometry);
 
           const Eigen::Vector3d normal = geometry.a1.cross(geometry.a2);
           area += normal.norm() * size[0] * size[1] * gauss.weight(q);

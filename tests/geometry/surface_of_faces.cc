@@ -219,8 +219,8 @@ steps()
                      step(random_number(-6, 6), random_number(-6, 6));
       SurfaceBasis    basis;
       SurfaceGeometry y;
-      surface.evaluate(xi, basis, false);
-      contract(basis, surface.control_points(), false, y);
+      surface.evaluate(xi, basis);
+      contract(basis, surface.control_points(), y);
       const Vector3d target = y.y + step[0] * y.a1 + step[1] * y.a2,
                      there  = surface.point(surface.moved(xi, step));
       // slid along the border where the line leaves the plane

@@ -189,7 +189,7 @@ main()
       {
         const Eigen::Vector2d xi((i + 0.5) / samples, (j + 0.5) / samples);
         SurfaceBasis          basis;
-        surface.evaluate(xi, basis, false);
+        surface.evaluate(xi, basis);
         Eigen::Vector3d a1 = Eigen::Vector3d::Zero(), a2 = a1;
         for (unsigned int a = 0; a < basis.size; ++a)
           {

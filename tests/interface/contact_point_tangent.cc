@@ -51,8 +51,8 @@ struct MasterPoint : SurfaceGeometry
   MasterPoint(const MasterSurface &master, const Eigen::Vector2d &xi)
   {
     SurfaceBasis basis;
-    master.surface->evaluate(xi, basis, false);
-    contract(basis, *master.positions, false, *this);
+    master.surface->evaluate(xi, basis);
+    contract(basis, *master.positions, *this);
     n = master.outward_sign * a1.cross(a2).normalized();
   }
 

@@ -213,8 +213,8 @@ public:
     state.internal         = {{-std::log(V / V_0), V}};
     SurfaceBasis    basis;
     SurfaceGeometry geometry;
-    surface.evaluate(state.xi, basis, false);
-    contract(basis, positions, false, geometry);
+    surface.evaluate(state.xi, basis);
+    contract(basis, positions, geometry);
     x   = geometry.y + Eigen::Vector3d(steady(V) * p / eps_t, 0, -p / 500.);
     end = x[0] + steady(V) * p / spring + kick;
   }
@@ -343,8 +343,8 @@ check_aged_point()
   state.internal    = friction->initial_variables;
   SurfaceBasis    basis;
   SurfaceGeometry geometry;
-  surface.evaluate(state.xi, basis, false);
-  contract(basis, positions, false, geometry);
+  surface.evaluate(state.xi, basis);
+  contract(basis, positions, geometry);
   const MasterSurface master{&surface, &positions, 1.};
   const double        p      = 2.8665;
   double              beyond = 0, against = 0;

@@ -60,8 +60,8 @@ public:
             const Eigen::Vector2d xi(bounds[0][0] + size[0] * gauss.point(k)[0],
                                      bounds[0][1] +
                                        size[1] * gauss.point(k)[1]);
-            face.evaluate_in_element(element, xi, basis, false);
-            contract(basis, placed, false, geometry);
+            face.evaluate_in_element(element, xi, basis);
+            contract(basis, placed, geometry);
             Point point;
             point.X  = geometry.y;
             point.dA = geometry.a1.cross(geometry.a2).norm() * size.prod() *

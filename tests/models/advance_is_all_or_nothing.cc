@@ -110,7 +110,7 @@ struct State
                     system.bulk_energy(),
                     system.time(),
                     double(simulation.control().is_between_phases()),
-                    double(simulation.checks().released().may_hide_a_jump())});
+                    double(simulation.checks().released().may_hide_a_jump)});
   }
 
   bool

@@ -34,8 +34,8 @@ normal_at(const NurbsSurface    &surface,
 {
   SurfaceBasis    basis;
   SurfaceGeometry geometry;
-  surface.evaluate(xi, basis, false);
-  contract(basis, surface.control_points(), false, geometry);
+  surface.evaluate(xi, basis);
+  contract(basis, surface.control_points(), geometry);
   position = geometry.y;
   return geometry.a1.cross(geometry.a2).normalized();
 }

@@ -87,7 +87,7 @@ distance_from_side(const BodyParameters &implant,
                          implant.geometry().side(X[2], std::atan2(X[1], X[0]));
       grow(result, std::abs(radius_of(implant, X).norm() - r));
       SurfaceGeometry geometry;
-      contract(point.basis, face.control_points(), false, geometry);
+      contract(point.basis, face.control_points(), geometry);
       const double outwards =
         (side == Side::bone ? 1. : -1.) *
         geometry.a1.cross(geometry.a2).dot(radius_of(implant, X));

@@ -11,6 +11,8 @@
 
 namespace Debond
 {
+  class NurbsSurface;
+
   /**
    * The basis functions of one surface element, evaluated at one parametric
    * point xi = (xi^1, xi^2). Derivatives are with respect to the parameters
@@ -28,6 +30,12 @@ namespace Debond
 
     std::array<double, max_size> N;        ///< values
     std::array<double, max_size> N_1, N_2; ///< d/dxi^1, d/dxi^2
+  };
+
+  /** With second derivatives, which only a search along the surface asks for.
+   */
+  struct CurvedBasis : SurfaceBasis
+  {
     std::array<double, max_size> N_11, N_12, N_22;
   };
 
@@ -40,6 +48,17 @@ namespace Debond
   /** sum_a N_a p_a. */
   Eigen::Vector3d
   interpolate(const SurfaceBasis &basis, const ControlNet &control_points);
+
+  /** A basis that is evaluated only where it is not known already. */
+  struct KeptBasis : SurfaceBasis
+  {
+    void
+    move_to(const NurbsSurface &new_surface, const Eigen::Vector2d &new_xi);
+
+  private:
+    const NurbsSurface *surface = nullptr;
+    Eigen::Vector2d     xi;
+  };
 
   /** Height [mm] at the distance @p r from the axis of a sphere that touches
    *  z = 0 at the origin from above. */
@@ -209,20 +228,21 @@ namespace Debond
     Eigen::Vector2d
     moved(const Eigen::Vector2d &xi, const Eigen::Vector2d &step) const;
 
-    /** Basis with first and, if asked, second derivatives at @p xi (clamped to
-     *  its patch), in the element that contains it. No allocation. */
+    /** Basis at @p xi (clamped to its patch), in the element that contains it.
+     *  No allocation. */
     void
-    evaluate(const Eigen::Vector2d &xi,
-             SurfaceBasis          &basis,
-             bool                   second_derivatives) const;
+    evaluate(const Eigen::Vector2d &xi, SurfaceBasis &basis) const;
 
     /** The same in a given element, whose polynomials are used even when xi
      *  lies on its border (for quadrature and for one-sided values). */
     void
     evaluate_in_element(unsigned int           element,
                         const Eigen::Vector2d &xi,
-                        SurfaceBasis          &basis,
-                        bool                   second_derivatives) const;
+                        SurfaceBasis          &basis) const;
+    void
+    evaluate_in_element(unsigned int           element,
+                        const Eigen::Vector2d &xi,
+                        CurvedBasis           &basis) const;
 
     /** Control points of an element, in the order of SurfaceBasis. */
     std::array<unsigned int, SurfaceBasis::max_size>
@@ -285,6 +305,10 @@ namespace Debond
     bilinear_interpolant() const;
 
   private:
+    template <class Basis>
+    void
+    fill(unsigned int element, const Eigen::Vector2d &xi, Basis &basis) const;
+
     /** Where parameters are [2 i, 2 i + 1] x [2 j, 2 j + 1]. */
     Eigen::Vector2d
     lowest_of_face(const unsigned int face) const

@@ -16,13 +16,16 @@ namespace Debond
     Eigen::Vector3d a11, a12, a22; ///< second derivatives
   };
 
-  /** Contracts a basis with a control net (any: positions, velocities...).
-   *  Second derivatives only if @p second_derivatives. */
+  /** Contracts a basis with a control net (any: positions, velocities...), to
+   *  second derivatives if it has them; else these are 0. */
   void
   contract(const SurfaceBasis &basis,
            const ControlNet   &control_points,
-           bool                second_derivatives,
            SurfaceGeometry    &geometry);
+  void
+  contract(const CurvedBasis &basis,
+           const ControlNet  &control_points,
+           SurfaceGeometry   &geometry);
 
   /** Adds N_a @p value to every control point: what a force at the point of the
    *  surface amounts to at the control points. */

@@ -141,10 +141,10 @@ namespace Debond
    */
   struct ContactPointResult : ContactPointAnswer
   {
-    SurfaceBasis basis;                    ///< master basis at xi_hat
-    SurfaceBasis old_basis;                ///< at xi_hat^n; only when slipping
-    Eigen::Matrix<double, 3, W::size> dt;  ///< dt/dw
-    Eigen::Matrix<double, 2, W::size> dxi; ///< dxi_hat/dw
+    SurfaceBasis                      basis;     ///< master basis at xi_hat
+    KeptBasis                         old_basis; ///< at xi_hat^n
+    Eigen::Matrix<double, 3, W::size> dt;        ///< dt/dw
+    Eigen::Matrix<double, 2, W::size> dxi;       ///< dxi_hat/dw
     /** d(g_s + opening)/dw, which a path is measured by. */
     Eigen::Matrix<double, 1, W::size> dpath;
     /** How they change with the damage of the share that is held, by laws that

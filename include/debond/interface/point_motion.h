@@ -55,11 +55,7 @@ namespace Debond
     void
     for_each_control_point(const Work &work) const;
 
-    bool
-    has_slid() const
-    {
-      return slides;
-    }
+    bool slides;
 
   private:
     struct OfMaster
@@ -70,7 +66,6 @@ namespace Debond
     };
 
     Side         slave;
-    bool         slides;
     unsigned int n_slave, n_master = 0;
 
     std::array<unsigned int, SurfaceBasis::max_size> of_slave;

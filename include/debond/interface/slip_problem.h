@@ -229,12 +229,11 @@ namespace Debond
       , surface(*point.master.surface)
     {}
 
-    /** From @p start; writes the basis and, if solved, xi_hat. */
+    /** Finds xi_hat, from @p start. */
     SlipOutcome
-    solve(const Eigen::Vector2d &start, ContactPointResult &result);
+    solve(const Eigen::Vector2d &start);
 
-    /** Writes the rest of the sliding point, the motion of xi_hat eliminated.
-     */
+    /** Writes the sliding point, the motion of xi_hat eliminated. */
     void
     report(ContactPointResult &result);
 
@@ -259,9 +258,9 @@ namespace Debond
     // are missed there; and the line search, which halves a step until that
     // distance is smaller.
     void
-    evaluate(const Eigen::Vector2d &xi, SurfaceBasis &basis);
+    evaluate(const Eigen::Vector2d &xi);
     void
-    evaluate_in(const NurbsSurface::Place &place, SurfaceBasis &basis);
+    evaluate_in(const NurbsSurface::Place &place);
     double
     distance_error(const std::array<bool, 2> &held = {{false, false}}) const;
     double
@@ -271,8 +270,7 @@ namespace Debond
     bool
     search_along(const Eigen::Vector2d &step,
                  double                 error,
-                 Eigen::Vector2d       &xi,
-                 SurfaceBasis          &basis);
+                 Eigen::Vector2d       &xi);
 
     // Newton's step in an element, and how far it may go; the rest of it that
     // leads beyond a side where xi_hat lies.
@@ -284,18 +282,19 @@ namespace Debond
     ElementStep
     step_in_element(const NurbsSurface::Place &place);
     SlipOutcome
-    solve_with_ridges(const Eigen::Vector2d &start, ContactPointResult &result);
+    solve_with_ridges(const Eigen::Vector2d &start);
 
     const PointStep    &point;
     const NurbsSurface &surface; ///< of the master
-    /** Newton's step that is left where the search has ended. */
-    Eigen::Vector2d last_step;
+    /** Where the search has ended, a step of Newton's method further. */
+    Eigen::Vector2d xi_hat, last_step;
     /** Parameters that a ridge of the master holds. */
     std::array<bool, 2> held{{false, false}};
 
     // The master at the last trial place, and the equations there. They refer
     // to the geometry, so that a new place needs new equations; they are made
     // in place, without allocation.
+    CurvedBasis                                 basis;
     SurfaceGeometry                             geometry;
     std::optional<SlipEquations>                equations;
     std::optional<SlipEquations::Derivative<2>> by_xi;

@@ -43,18 +43,10 @@ namespace Debond
     {
       double smallest = 1e300, mean = 0., largest = 0.;
     };
-    const Range &
-    range() const
-    {
-      return range_in_bone;
-    }
+    Range range;
 
     /** Whether it is the same everywhere at the same z. */
-    bool
-    is_layered() const
-    {
-      return layered;
-    }
+    const bool is_layered;
     const VoxelImage *
     voxels() const
     {
@@ -73,9 +65,7 @@ namespace Debond
     const std::string                       text;
     const std::shared_ptr<const VoxelImage> image;
     const Box                               bone, of_voxels;
-    const bool                              layered;
     const Expression                        modulus;
-    Range                                   range_in_bone;
   };
 } // namespace Debond
 #endif

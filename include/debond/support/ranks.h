@@ -95,9 +95,9 @@ namespace Debond
     }
     double
     sum(double value);
-    /** The largest of all ranks, in place, one by one. Collective. */
-    void
-    take_largest(double *values, std::size_t n);
+    /** The largest of all ranks. Collective. */
+    double
+    largest(double value);
     /** Waits for all. Collective. */
     void
     meet();

@@ -146,38 +146,20 @@ namespace Debond
 
     /** True if a force fell so far in the last step that a jump could not be
      * told from a steep fall. */
-    bool
-    may_hide_a_jump() const
-    {
-      return hidden;
-    }
+    bool may_hide_a_jump = false;
     /** By how much the law dissipates more in the last step than there was
      *  [N mm]; 0 if bounds account for it. */
-    double
-    missing() const
-    {
-      return created;
-    }
-    /** Sum over all steps [N mm]. */
-    double
-    total() const
-    {
-      return released;
-    }
-    /** Number of steps that jumped. */
-    unsigned int
-    n_jumps() const
-    {
-      return jumps;
-    }
+    double       missing = 0.;
+    double       total   = 0.; ///< sum over all steps [N mm]
+    unsigned int n_jumps = 0;  ///< steps that jumped
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &started &last &last_change &last_motion &greatest &hidden
-        &largest_work &work &at_start &released &jumps;
+      archive &started &last &last_change &last_motion &greatest
+        &may_hide_a_jump &largest_work &work &at_start &total &n_jumps;
     }
 
   private:
@@ -190,10 +172,7 @@ namespace Debond
     Chuck::Vector6 last_change  = Chuck::Vector6::Zero(),
                    last_motion  = Chuck::Vector6::Zero();
     Chuck::Vector6 greatest     = Chuck::Vector6::Zero(); ///< forces, absolute
-    bool           hidden       = false;
-    double         created      = 0;
-    double         largest_work = 0, work = 0, at_start = 0, released = 0;
-    unsigned int   jumps = 0;
+    double         largest_work = 0, work = 0, at_start = 0;
   };
 } // namespace Debond
 #endif

@@ -32,12 +32,6 @@ namespace Debond
     void
     commit(const ControlNet &forces);
 
-    /** [mm], null where there is none. */
-    const TimeFunction &
-    over_time() const
-    {
-      return interference;
-    }
     bool
     is_none() const
     {
@@ -49,43 +43,23 @@ namespace Debond
     {
       return half * outwards;
     }
-    /** The same per length that the face is to stand out. */
-    const ControlNet &
-    direction() const
-    {
-      return outwards;
-    }
+    TimeFunction interference; ///< [mm], null where there is none
     /** Work that thickening has put in up to the accepted state [N mm], a
-     *  trapezoid.
-     */
-    double
-    work() const
-    {
-      return accepted_work;
-    }
-    /** Bound of its error [N mm]. */
-    double
-    bound() const
-    {
-      return accepted_bound;
-    }
+     *  trapezoid, and the bound of its error. */
+    double work = 0., bound = 0.;
 
     /** See serialization.h. */
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &half &accepted_half &accepted_force &accepted_work
-        &accepted_bound;
+      archive &half &accepted_half &accepted_force &work &bound;
     }
 
   private:
-    TimeFunction interference; ///< [mm]
-    ControlNet   outwards;     ///< per length that the face is to stand out
-    double       half = 0, accepted_half = 0; ///< [mm]
-    double       accepted_force = 0;          ///< conjugate to `half' [N]
-    double       accepted_work  = 0;
-    double       accepted_bound = 0;
+    ControlNet outwards; ///< per length that the face is to stand out
+    double     half = 0, accepted_half = 0; ///< [mm]
+    double     accepted_force = 0;          ///< conjugate to `half' [N]
   };
 } // namespace Debond
 #endif

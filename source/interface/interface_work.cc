@@ -188,12 +188,14 @@ namespace Debond
     const PointWork  by_law =
       law.work(start, trial.normal_gap, trial.state.slip - point.accepted.slip);
     // where a pattern has moved on, the string bears more than what holds now
-    const double held = law.respond(start, point.accepted.normal_gap, 0.).limit,
-                 lost = (old_traction - frame * point.accepted_viscous_traction)
-                          .norm() -
-                        held;
-    if (law.friction->has_bond() && lost > 0.)
-      friction += 0.5 * lost * slip.norm();
+    if (law.friction->has_bond() && !slip.isZero(0.))
+      {
+        const double bears =
+          (old_traction - frame * point.accepted_viscous_traction).norm();
+        const double holds =
+          law.respond(start, point.accepted.normal_gap, 0.).limit;
+        friction += 0.5 * std::max(0., bears - holds) * slip.norm();
+      }
     // Across the interface [N mm]: what viscosity and damage take. A lift has
     // been counted as slip, but is stored in the normal spring.
     const double of_gap =

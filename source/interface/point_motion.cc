@@ -71,20 +71,28 @@ namespace Debond
   PointMotion::gather(const PaddedNets &u) const
   {
     const PaddedNet &on_slave = u[slave], &on_master = u[other(slave)];
-    Vectors<5>       w = Vectors<5>::Zero();
+    const Vector4d   zero = Vector4d::Zero();
+    // sums in registers, which those of a matrix would not be
+    Vector4d x = zero;
     for (unsigned int a = 0; a < n_slave; ++a)
-      w.col(0) += N[a] * on_slave.col(of_slave[a]);
+      x += N[a] * on_slave.col(of_slave[a]);
+    Vector4d gap = x, a_1 = zero, a_2 = zero, trial_gap = zero, old_gap = zero;
     if (slides)
-      w.col(3) = w.col(0);
+      trial_gap = x;
     for (unsigned int b = 0; b < n_master; ++b)
       {
         const auto    &factor = of_master[b].factor;
         const Vector4d p      = on_master.col(of_master[b].control_point);
-        for (unsigned int k = 0; k < 3; ++k)
-          w.col(k) += factor[k] * p;
-        for (unsigned int k = 3; slides && k < 5; ++k)
-          w.col(k) += factor[k] * p;
+        gap += factor[0] * p;
+        a_1 += factor[1] * p;
+        a_2 += factor[2] * p;
+        if (!slides)
+          continue;
+        trial_gap += factor[3] * p;
+        old_gap += factor[4] * p;
       }
+    Vectors<5> w;
+    w << gap, a_1, a_2, trial_gap, old_gap;
     return w;
   }
 

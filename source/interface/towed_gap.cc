@@ -124,14 +124,16 @@ namespace Debond
                 const double  change)
       {
         const auto excess = [&](const double at) {
-          const auto here = path.at(at);
-          fraction        = at;
-          part            = here.part;
-          direction       = here.direction;
-          gap             = old_gap + part * path.motion;
-          limit           = old_limit + at * change;
-          slope = 2. * (dot(gap, direction) * path.length - limit * change);
-          return std::norm(gap) - limit * limit;
+          const auto   here = path.at(at);
+          const Vector g    = old_gap + here.part * path.motion;
+          const double l    = old_limit + at * change;
+          fraction          = at;
+          part              = here.part;
+          direction         = here.direction;
+          gap               = g;
+          limit             = l;
+          slope = 2. * (dot(g, here.direction) * path.length - l * change);
+          return std::norm(g) - l * l;
         };
         // It slides at once, or at rounding, as it did when it came here.
         double f = excess(0.);

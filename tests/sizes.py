@@ -31,21 +31,22 @@ def code_lines(text):
 def longest_function(bare):
     """Lines of the longest body, the names of namespaces and types left out."""
     longest, lines = 0, bare.split("\n")
-    opened = []  # (line, whether it is a function)
+    opened = []  # (line, whether it is a function, what stands before it)
     head = ""
     for number, line in enumerate(lines):
         for letter in line:
             if letter == "{":
-                inside = any(is_function for _, is_function in opened)
+                inside = any(is_function for _, is_function, _ in opened)
                 is_function = (not inside and ")" in head
                                and not re.search(r"\b(namespace|class|struct|enum|union)\b[^()]*$", head))
-                opened.append((number, is_function))
+                opened.append((number, is_function, head))
                 head = ""
             elif letter == "}":
-                begin, is_function = opened.pop()
+                begin, is_function, head = opened.pop()
                 if is_function:
                     longest = max(longest, code_lines("\n".join(lines[begin + 1:number])))
-                head = ""
+                if is_function or not re.search(r"\)[^()]*:[^:]", head):  # else a member is initialised in braces
+                    head = ""
             elif letter == ";":
                 head = ""
             else:
@@ -78,7 +79,7 @@ def main():
         return comments / code
 
     measure("program, source and include", ("source", "include"))
-    measure("tests", ("tests",))
+    measure("tests, .cc only", ("tests",), (".cc",))
     for room in ("interface", "system"):
         if measure(room, (f"source/{room}", f"include/debond/{room}")) < COMMENTS:
             faults.append(f"{room}: less than {COMMENTS} comment lines per code line")

@@ -158,23 +158,13 @@ namespace Debond
 
 
 
-  // A point of a side of a face, where it is in the face beyond.
-  void
-  NurbsSurface::evaluate(const Eigen::Vector2d &xi, SurfaceBasis &basis) const
-  {
-    const Eigen::Vector2d inside = clamped(xi);
-    evaluate_in_element(element_of(inside), inside, basis);
-  }
-
-
-
   void
   KeptBasis::move_to(const NurbsSurface    &new_surface,
                      const Eigen::Vector2d &new_xi)
   {
     if (surface == &new_surface && xi == new_xi)
       return;
-    new_surface.evaluate(new_xi, *this);
+    new_surface.evaluate(new_xi, static_cast<SurfaceBasis &>(*this));
     surface = &new_surface;
     xi      = new_xi;
   }
@@ -185,9 +175,9 @@ namespace Debond
   // of its own, which runs from 0 to 1.
   template <class Basis>
   void
-  NurbsSurface::fill(const unsigned int     element,
-                     const Eigen::Vector2d &xi,
-                     Basis                 &basis) const
+  NurbsSurface::evaluate_in_element(const unsigned int     element,
+                                    const Eigen::Vector2d &xi,
+                                    Basis                 &basis) const
   {
     assert(element < n_elements());
     const auto splines = [&](const unsigned int d) -> BernsteinValues {
@@ -216,21 +206,14 @@ namespace Debond
        fill_basis<1, Basis>)(splines(0), splines(1), weights, basis);
   }
 
-  void
-  NurbsSurface::evaluate_in_element(const unsigned int     element,
-                                    const Eigen::Vector2d &xi,
-                                    SurfaceBasis          &basis) const
-  {
-    fill(element, xi, basis);
-  }
-
-  void
-  NurbsSurface::evaluate_in_element(const unsigned int     element,
-                                    const Eigen::Vector2d &xi,
-                                    CurvedBasis           &basis) const
-  {
-    fill(element, xi, basis);
-  }
+  template void
+  NurbsSurface::evaluate_in_element(unsigned int,
+                                    const Eigen::Vector2d &,
+                                    SurfaceBasis &) const;
+  template void
+  NurbsSurface::evaluate_in_element(unsigned int,
+                                    const Eigen::Vector2d &,
+                                    CurvedBasis &) const;
 
 
 

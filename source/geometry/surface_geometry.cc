@@ -2,55 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include <type_traits>
-
 namespace Debond
 {
-  namespace
-  {
-    template <class Basis>
-    SurfaceGeometry
-    geometry_of(const Basis &basis, const ControlNet &control_points)
-    {
-      using Eigen::Vector3d;
-      Vector3d y = Vector3d::Zero(), a1 = y, a2 = y, a11 = y, a12 = y, a22 = y;
-      for (unsigned int k = 0; k < basis.size; ++k)
-        {
-          const Vector3d p = control_points.col(basis.control_point[k]);
-          y += basis.N[k] * p;
-          a1 += basis.N_1[k] * p;
-          a2 += basis.N_2[k] * p;
-          if constexpr (std::is_same_v<Basis, CurvedBasis>)
-            {
-              a11 += basis.N_11[k] * p;
-              a12 += basis.N_12[k] * p;
-              a22 += basis.N_22[k] * p;
-            }
-        }
-      return {y, a1, a2, a11, a12, a22};
-    }
-  } // namespace
-
-
-
-  void
-  contract(const SurfaceBasis &basis,
-           const ControlNet   &control_points,
-           SurfaceGeometry    &geometry)
-  {
-    geometry = geometry_of(basis, control_points);
-  }
-
-  void
-  contract(const CurvedBasis &basis,
-           const ControlNet  &control_points,
-           SurfaceGeometry   &geometry)
-  {
-    geometry = geometry_of(basis, control_points);
-  }
-
-
-
   void
   spread(const SurfaceBasis    &basis,
          const Eigen::Vector3d &value,

@@ -38,6 +38,9 @@ namespace Debond
     static_cast<ContactPointAnswer &>(result) = open;
     result.dt.setZero();
     result.dxi.setZero();
+    result.dpath.setZero();
+    if (old_state.has_partner)
+      result.basis = result.old_basis;
     result.by_damage = {};
   }
 
@@ -276,9 +279,9 @@ namespace Debond
   // that has no partner is open; one that is closed at xi_hat^n and carries no
   // more than friction allows sticks there; what is left slides, or opens.
   //
-  // The order costs little: a point that sticks is done with one evaluation of
-  // the master, and only what slides needs an iteration (slip_problem.cc). It
-  // is a return mapping, as of plasticity: an elastic trial, a limit, and a
+  // The order costs little: a point that sticks needs no more of the master
+  // than what it had at xi_hat^n, and only what slides an iteration. It is a
+  // return mapping, as of plasticity: an elastic trial, a limit, and a
   // correction on the limit, with g_s in the place of the accumulated plastic
   // strain.
   void

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <utility>
 
 namespace Debond
 {
@@ -104,7 +105,7 @@ namespace Debond
     if (coarser.load_steps.ends.empty())
       for (unsigned int &n : coarser.load_steps.steps)
         n = std::min(n, 100u);
-    const Forecast forecast(coarser);
+    const Forecast forecast(std::move(coarser));
     double         T_max = 0.;
     for (const TorqueRow &row : rows)
       T_max = std::max(T_max, std::abs(row.torque_Nmm));

@@ -7,7 +7,8 @@ usage="usage: benchmark.sh [OPTIONS] DEBOND MACHINE_SPEED SCENE
 
 Times SCENE on the paper's three meshes and a very fine one, with Neo-Hookean
 and with linear bodies, in adaptive steps (torque curve to 1e-3) and in 1000, with
-one and with two threads, without field output. Prints one row for each:
+one and with two threads, without field output and without the page of the results,
+which another process makes. Prints one row for each:
 
   seconds    of the whole process, less those of an empty one (debond --version,
              which loads the same libraries and does nothing)
@@ -17,7 +18,8 @@ one and with two threads, without field output. Prints one row for each:
   peak MB    largest memory held
   ratio      seconds over those of the baseline, both in units of what the
              machine takes for a fixed piece of work (MACHINE_SPEED): above one is
-             slower than the baseline
+             slower than the baseline. Other processors do some work faster than
+             other: there, time the program before a change, too
 
   --baseline FILE   compare with this file (default: baseline.csv beside this script)
   --write FILE      write a new baseline
@@ -75,7 +77,7 @@ time_run() { # STEPS BODIES MESH BONE IMPLANT THREADS
     stepping=(--set "Load steps/Steps=1, 10" --set "Load steps/Adaptive=true")
   fi
   seconds=$(seconds_of "$debond" "$scene" --threads "$6" --set "Output/Directory=$directory/run" --force \
-    --set "Output/Fields every=none" --set "Output/Console=quiet" \
+    --set "Output/Fields every=none" --set "Output/Console=quiet" --set "Output/Report=false" \
     --set "Bone/Cells=$4" --set "Implant/Cells=$5" \
     --set "Bone/Material=$2" --set "Implant/Material=$2" "${stepping[@]}")
   seconds=$(awk "BEGIN { print $seconds - $empty }")

@@ -84,7 +84,7 @@ geometry_at(const NurbsSurface &surface,
             const ControlNet   &net,
             const Vector2d     &xi)
 {
-  SurfaceBasis    basis;
+  CurvedBasis     basis;
   SurfaceGeometry geometry;
   surface.evaluate(xi, basis);
   contract(basis, net, geometry);

@@ -96,7 +96,7 @@ compare(const NurbsSurface    &surface,
         const Eigen::Vector2d &xi,
         Deviation             &deviation)
 {
-  SurfaceBasis basis;
+  CurvedBasis basis;
   surface.evaluate(xi, basis);
   std::vector<std::array<double, 6>> ours(surface.n_control_points(),
                                           std::array<double, 6>{});

@@ -38,7 +38,7 @@ for_all_points(const NurbsSurface &surface, const Check &check)
             const Eigen::Vector2d xi =
               bounds[0] +
               Eigen::Vector2d(s, t).cwiseProduct(bounds[1] - bounds[0]);
-            SurfaceBasis basis;
+            CurvedBasis basis;
             surface.evaluate_in_element(element, xi, basis);
             check(xi, basis);
           }
@@ -51,7 +51,7 @@ void
 check_sums(const std::string &name, const NurbsSurface &surface)
 {
   double values = 0, first = 0, second = 0, negative = 0;
-  for_all_points(surface, [&](const Eigen::Vector2d &, const SurfaceBasis &b) {
+  for_all_points(surface, [&](const Eigen::Vector2d &, const CurvedBasis &b) {
     double N = 0, N_1 = 0, N_2 = 0, N_11 = 0, N_12 = 0, N_22 = 0;
     for (unsigned int k = 0; k < b.size; ++k)
       {
@@ -101,27 +101,56 @@ check_affine(const unsigned int degree)
   const double       lx = 7, ly = 3;
   const NurbsSurface surface  = rectangle_of(lx, ly, 5, 4, degree);
   double             position = 0, slope = 0;
-  for_all_points(
-    surface, [&](const Eigen::Vector2d &xi, const SurfaceBasis &b) {
-      Eigen::Vector3d y = Eigen::Vector3d::Zero(), a1 = y, a2 = y;
-      for (unsigned int k = 0; k < b.size; ++k)
-        {
-          const auto P = surface.control_points().col(b.control_point[k]);
-          y += b.N[k] * P;
-          a1 += b.N_1[k] * P;
-          a2 += b.N_2[k] * P;
-        }
-      const Eigen::Vector3d exact(lx * (xi[0] - 0.5), ly * (xi[1] - 0.5), 0.);
-      position = std::max(position, (y - exact).norm());
-      slope    = std::max({slope,
-                           (a1 - Eigen::Vector3d(lx, 0, 0)).norm(),
-                           (a2 - Eigen::Vector3d(0, ly, 0)).norm()});
-    });
+  for_all_points(surface, [&](const Eigen::Vector2d &xi, const CurvedBasis &b) {
+    Eigen::Vector3d y = Eigen::Vector3d::Zero(), a1 = y, a2 = y;
+    for (unsigned int k = 0; k < b.size; ++k)
+      {
+        const auto P = surface.control_points().col(b.control_point[k]);
+        y += b.N[k] * P;
+        a1 += b.N_1[k] * P;
+        a2 += b.N_2[k] * P;
+      }
+    const Eigen::Vector3d exact(lx * (xi[0] - 0.5), ly * (xi[1] - 0.5), 0.);
+    position = std::max(position, (y - exact).norm());
+    slope    = std::max({slope,
+                         (a1 - Eigen::Vector3d(lx, 0, 0)).norm(),
+                         (a2 - Eigen::Vector3d(0, ly, 0)).norm()});
+  });
   std::cout << "Rectangle of degree " << degree << ": " << surface.n_elements()
             << " elements, " << surface.n_control_points() << " control points"
             << std::endl;
   report("  deviation of positions", position, 1e-14);
   report("  deviation of tangents", slope, 1e-12);
+}
+
+
+
+/** A basis that is kept is that of where it has been moved to last. */
+void
+check_kept()
+{
+  const NurbsSurface surfaces[]{NurbsSurface::disk(30., 5), uneven_surface(2)};
+  KeptBasis          kept;
+  double             difference = 0.;
+  for (const auto &[surface, u] : {std::pair(0, 0.2),
+                                   std::pair(0, 0.7),
+                                   std::pair(1, 0.7),
+                                   std::pair(1, 0.7),
+                                   std::pair(0, 0.7),
+                                   std::pair(0, 0.2)})
+    {
+      const Eigen::Vector2d xi(u, 0.4);
+      SurfaceBasis          fresh;
+      surfaces[surface].evaluate(xi, fresh);
+      kept.move_to(surfaces[surface], xi);
+      for (unsigned int k = 0; k < fresh.size; ++k)
+        difference += (kept.control_point[k] != fresh.control_point[k]) +
+                      std::abs(kept.N[k] - fresh.N[k]) +
+                      std::abs(kept.N_1[k] - fresh.N_1[k]) +
+                      std::abs(kept.N_2[k] - fresh.N_2[k]);
+      difference += kept.size != fresh.size || kept.element != fresh.element;
+    }
+  report("A basis that is kept differs by", difference, 1e-30);
 }
 
 
@@ -134,4 +163,5 @@ main()
   check_sums("Uneven knots and weights, degree 1", uneven_surface(1));
   check_affine(2);
   check_affine(1);
+  check_kept();
 }

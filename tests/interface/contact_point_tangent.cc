@@ -187,7 +187,7 @@ struct Findings
 {
   std::map<PointStatus, unsigned int> compared;
   unsigned int                        failed = 0, wrong_status = 0;
-  double derivatives = 0., equations = 0., limit = 0., nothing = 0.;
+  double derivatives = 0., equations = 0., limit = 0., nothing = 0., kept = 0.;
 };
 
 /** Differences of fourth order, where first and second differences of twice the
@@ -297,6 +297,33 @@ check_equations(const Question           &question,
 
 
 
+/** What a result keeps of the updates before, of all points and both masters,
+ *  changes nothing. */
+double
+difference_of_used(const Question &question, const ContactPointResult &result)
+{
+  static ContactPointResult used;
+  update_contact_point(question.law,
+                       question.start,
+                       question.phi_0,
+                       question.x,
+                       question.master(),
+                       question.mode,
+                       used);
+  const unsigned int n   = question.net.cols();
+  const auto         old = [&](const ContactPointResult &of) {
+    return interpolate(of.old_basis, question.net);
+  };
+  return (used.dt - result.dt).norm() + (used.dxi - result.dxi).norm() +
+         (used.dpath - result.dpath).norm() + (old(used) - old(result)).norm() +
+         (forces(used, n) - forces(result, n)).norm() +
+         (interpolate(used.basis, question.net) -
+          interpolate(result.basis, question.net))
+           .norm();
+}
+
+
+
 /** A point that is taken through three random motions. */
 void
 check_point(Question question, Findings &found)
@@ -313,6 +340,7 @@ check_point(Question question, Findings &found)
                    way * (std::cos(angle) * at.a1.normalized() +
                           std::sin(angle) * at.n.cross(at.a1.normalized()));
       const ContactPointResult result = question.answer();
+      grow(found.kept, difference_of_used(question, result));
       found.failed += result.failed;
       if (result.failed)
         return;
@@ -372,6 +400,9 @@ check(const std::string &name, const ContactPointLaw &law, const bool rubs)
   report(name + ": equations are missed by [MPa]", found.equations, 1e-10);
   report(name + ": the limit is missed by [MPa]", found.limit, 1e-9);
   report(name + ": open points exert [MPa]", found.nothing, 1e-30);
+  report(name + ": a result that was used before differs by",
+         found.kept,
+         1e-30);
   report(name + ": all stick or slide as the trial traction demands",
          found.wrong_status == 0);
 }

@@ -84,12 +84,12 @@ message_of(const std::function<void()> &work)
 
 /** Of all processes; the first one reports. */
 void
-report_of_all(const std::string &what, double value)
+report_of_all(const std::string &what, const double value)
 {
   const Ranks::Together together(MPI_COMM_WORLD);
-  Ranks::take_largest(&value, 1);
+  const double          largest = Ranks::largest(value);
   if (Ranks::is_first())
-    report(what, value, 1e-8);
+    report(what, largest, 1e-8);
 }
 
 

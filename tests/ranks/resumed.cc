@@ -73,8 +73,7 @@ go_on_alone(const std::string &change)
         grow(largest, std::abs(begun.rows()[i].torque_Nmm));
       }
   }
-  double of_all = difference / largest;
-  Ranks::take_largest(&of_all, 1);
+  const double of_all = Ranks::largest(difference / largest);
   if (Ranks::is_first())
     report(change, of_all, 1e-9);
 }

@@ -49,7 +49,8 @@ namespace Debond
   Eigen::Vector3d
   interpolate(const SurfaceBasis &basis, const ControlNet &control_points);
 
-  /** A basis that is evaluated only where it is not known already. */
+  /** A basis that is evaluated only where it is not known already. Surfaces
+   *  must outlive it, and their parameters stay what they are. */
   struct KeptBasis : SurfaceBasis
   {
     void
@@ -230,19 +231,21 @@ namespace Debond
 
     /** Basis at @p xi (clamped to its patch), in the element that contains it.
      *  No allocation. */
+    template <class Basis>
     void
-    evaluate(const Eigen::Vector2d &xi, SurfaceBasis &basis) const;
+    evaluate(const Eigen::Vector2d &xi, Basis &basis) const
+    {
+      const Eigen::Vector2d inside = clamped(xi);
+      evaluate_in_element(element_of(inside), inside, basis);
+    }
 
     /** The same in a given element, whose polynomials are used even when xi
      *  lies on its border (for quadrature and for one-sided values). */
+    template <class Basis>
     void
     evaluate_in_element(unsigned int           element,
                         const Eigen::Vector2d &xi,
-                        SurfaceBasis          &basis) const;
-    void
-    evaluate_in_element(unsigned int           element,
-                        const Eigen::Vector2d &xi,
-                        CurvedBasis           &basis) const;
+                        Basis                 &basis) const;
 
     /** Control points of an element, in the order of SurfaceBasis. */
     std::array<unsigned int, SurfaceBasis::max_size>
@@ -305,10 +308,6 @@ namespace Debond
     bilinear_interpolant() const;
 
   private:
-    template <class Basis>
-    void
-    fill(unsigned int element, const Eigen::Vector2d &xi, Basis &basis) const;
-
     /** Where parameters are [2 i, 2 i + 1] x [2 j, 2 j + 1]. */
     Eigen::Vector2d
     lowest_of_face(const unsigned int face) const

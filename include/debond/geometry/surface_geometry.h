@@ -5,6 +5,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <type_traits>
 #include <vector>
 
 namespace Debond
@@ -18,14 +19,29 @@ namespace Debond
 
   /** Contracts a basis with a control net (any: positions, velocities...), to
    *  second derivatives if it has them; else these are 0. */
+  template <class Basis>
   void
-  contract(const SurfaceBasis &basis,
-           const ControlNet   &control_points,
-           SurfaceGeometry    &geometry);
-  void
-  contract(const CurvedBasis &basis,
-           const ControlNet  &control_points,
-           SurfaceGeometry   &geometry);
+  contract(const Basis      &basis,
+           const ControlNet &control_points,
+           SurfaceGeometry  &geometry)
+  {
+    using Eigen::Vector3d;
+    Vector3d y = Vector3d::Zero(), a1 = y, a2 = y, a11 = y, a12 = y, a22 = y;
+    for (unsigned int k = 0; k < basis.size; ++k)
+      {
+        const Vector3d p = control_points.col(basis.control_point[k]);
+        y += basis.N[k] * p;
+        a1 += basis.N_1[k] * p;
+        a2 += basis.N_2[k] * p;
+        if constexpr (std::is_same_v<Basis, CurvedBasis>)
+          {
+            a11 += basis.N_11[k] * p;
+            a12 += basis.N_12[k] * p;
+            a22 += basis.N_22[k] * p;
+          }
+      }
+    geometry = {y, a1, a2, a11, a12, a22};
+  }
 
   /** Adds N_a @p value to every control point: what a force at the point of the
    *  surface amounts to at the control points. */

@@ -43,8 +43,8 @@ namespace Debond
 
   /**
    * The update of one slave quadrature point: (state_n, kinematics) ->
-   * (traction, tangent, state_n+1). A pure function: nothing but @p result is
-   * written.
+   * (traction, tangent, state_n+1). Nothing but @p result is written, and
+   * nothing of it matters but what it knows of the master at xi_hat^n.
    *
    * Stick iff eps_t |g_t| <= mu(g_s^n) p at xi_hat^n; otherwise xi_hat solves
    * Eqs. (29) and (30),

@@ -141,7 +141,8 @@ namespace Debond
    */
   struct ContactPointResult : ContactPointAnswer
   {
-    SurfaceBasis                      basis;     ///< master basis at xi_hat
+    /** Of the master at xi_hat, or at xi_hat^n if the point is open. */
+    SurfaceBasis                      basis;
     KeptBasis                         old_basis; ///< at xi_hat^n
     Eigen::Matrix<double, 3, W::size> dt;        ///< dt/dw
     Eigen::Matrix<double, 2, W::size> dxi;       ///< dxi_hat/dw

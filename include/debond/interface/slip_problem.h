@@ -286,8 +286,9 @@ namespace Debond
 
     const PointStep    &point;
     const NurbsSurface &surface; ///< of the master
-    /** Where the search has ended, a step of Newton's method further. */
-    Eigen::Vector2d xi_hat, last_step;
+    /** Newton's step that is left where the search has ended, and where it
+     *  leads. */
+    Eigen::Vector2d last_step, xi_hat;
     /** Parameters that a ridge of the master holds. */
     std::array<bool, 2> held{{false, false}};
 

@@ -54,7 +54,7 @@ trap 'rm -rf "$directory"' EXIT
 seconds_of() { # wall seconds of a command
   local start end
   start=$(date +%s.%N)
-  "$@" > "$directory/log"
+  "$@" > "$directory/log" || return 1 # it has said why
   end=$(date +%s.%N)
   awk -v a="$start" -v b="$end" 'BEGIN { printf "%.3f", b - a }'
 }

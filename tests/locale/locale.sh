@@ -59,7 +59,7 @@ for locale in C $german; do
    if [ $# -gt 0 ]; then
      "$debond" input/fit.prm --force > fit-console
      "$debond" --check input/ensemble.prm > ensemble-check
-     "$debond" input/ensemble.prm --force > ensemble-console
+     "$debond" input/ensemble.prm --force --jobs 1 > ensemble-console # variants in order
      "$debond" --compare ensemble input/measured.csv > compared
    fi)
 done

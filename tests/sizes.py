@@ -71,8 +71,7 @@ def main():
             types += len(re.findall(r"^\s*(?:template <[^;{]*>\s*)?(?:class|struct)\b[^;()]*\{", bare, re.M))
             if title.startswith("program") and lines > FILE:
                 faults.append(f"{path}: {lines} code lines, at most {FILE}")
-            longest = longest_function(bare)
-            if title.startswith("program") and longest > FUNCTION:
+            if title.startswith("program") and (longest := longest_function(bare)) > FUNCTION:
                 faults.append(f"{path}: a function of {longest} code lines, at most {FUNCTION}")
         print(f"{title}: {code} code lines, {statements} statements, {types} classes and structs, "
               f"{comments / code:.3f} comment lines per code line")
@@ -83,7 +82,8 @@ def main():
     for room in ("interface", "system"):
         if measure(room, (f"source/{room}", f"include/debond/{room}")) < COMMENTS:
             faults.append(f"{room}: less than {COMMENTS} comment lines per code line")
-    print("\n".join(faults))
+    for fault in faults:
+        print(fault)
     return 1 if faults else 0
 
 

@@ -223,17 +223,15 @@ namespace Debond
       const InterfaceConfiguration &configuration;
       const RigidMotion rigid{start, Place::of_implant(configuration)};
 
-      /** That of the master at rest at @p xi, as its frame has turned. */
+      /** That of the master at rest, as its frame has turned. */
       RigidMotion::Normal
-      normal(const Eigen::Vector2d &xi) const
+      normal(const SurfaceBasis &basis) const
       {
         const Eigen::Matrix3d &Q       = configuration.side[other(slave)].frame;
         const NurbsSurface    &surface = *master.surface;
         if (master.is_level)
           return {master.outward_sign * Q.col(2), true};
-        SurfaceBasis    basis;
         SurfaceGeometry geometry;
-        surface.evaluate(xi, basis);
         contract(basis, surface.control_points(), geometry);
         return {Q * MasterNormal(geometry, master.outward_sign).n,
                 master.is_flat};
@@ -267,7 +265,8 @@ namespace Debond
       {
         if (law.slip_direction == SlipDirection::integrated)
           {
-            const RigidMotion::Normal n = normal(start.xi);
+            result.old_basis.move_to(*master.surface, start.xi);
+            const RigidMotion::Normal n = normal(result.old_basis);
             mode.turn                   = rigid.turn_of_way(old_x, slave, n);
             result.turn_by_chuck        = turn_by_chuck(old_x, n);
           }
@@ -481,12 +480,13 @@ namespace Debond
       if (slides(point.trial.state.status))
         {
           // one that came over the edge in this step began it there
-          const ContactPointState &start =
-            point.accepted.has_partner ? point.accepted : point.trial.state;
+          const SurfaceBasis &start = point.accepted.has_partner ?
+                                        point.trial.old_basis :
+                                        point.trial.basis;
           point.trial.turn_by_chuck =
             step.turn_by_chuck(interpolate(point.basis,
                                            accepted_positions[slave]),
-                               step.normal(start.xi));
+                               step.normal(start));
         }
   }
 

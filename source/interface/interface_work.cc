@@ -250,10 +250,8 @@ namespace Debond
     // an open point has no other, and the gap to it says how far the faces are
     // apart.
     const MasterSurface surface = master(configuration);
-    SurfaceBasis        basis;
     SurfaceGeometry     geometry;
-    surface.surface->evaluate(point.accepted.xi, basis);
-    contract(basis, *surface.positions, geometry);
+    contract(point.trial.old_basis, *surface.positions, geometry);
     const Eigen::Vector3d n = MasterNormal(geometry, surface.outward_sign).n;
     return {n,
             interpolate(point.basis, configuration.side[slave].positions) -

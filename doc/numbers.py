@@ -826,41 +826,36 @@ def stability():
         ('slip_direction', 'default'), ('slip_direction', 'previous-gap'), ('uniqueness', 'default'), ('chatter', 'bilinear-dense')])
 
 
+def runs_to_accuracy():
+    """Rows of the studies of Accuracy = 1 % against the truth, and the directories of their variants."""
+    return [(row, '%s/variant-%03d' % (directory_of(scene, ()), row['variant']))
+            for scene in ('prm/verification/accuracy.prm', 'prm/verification/accuracy_stiff.prm') for row in study(scene)]
+
+
 @numbers('minutes')
-def auto():
+def accuracy():
+    """Seconds are those of the last two runs of a scene; in a check those that are stored."""
     names = ('main', 'disk pattern, f = 0.55', '3.5 mm off centre, near the edge', '1800 MPa/mm', '18 000 MPa/mm', '180 000 MPa/mm',
-             'soft interface, 20 MPa/mm', 'soft implant, 30 MPa', 'tilted by 0.1 degrees', 'force held', 'brittle law')
-    stiff = ('10 000 MPa/mm', '1e6 MPa/mm', '1e5 MPa/mm: disk pattern, f = 0.55', 'tilted by 0.05 degrees', 'force held', 'brittle law',
-             "Poisson's ratio 0.45", '3.5 mm off centre, near the edge')
+             'soft interface, 20 MPa/mm', 'soft implant, 30 MPa', 'tilted by 0.1 degrees', 'force held', 'brittle law',
+             '10 000 MPa/mm', '1e6 MPa/mm', '1e5 MPa/mm: disk pattern, f = 0.55', '1e5 MPa/mm: tilted by 0.05 degrees',
+             '1e5 MPa/mm: force held', '1e5 MPa/mm: brittle law', "1e5 MPa/mm: Poisson's ratio 0.45", '1e5 MPa/mm: near the edge')
     lines = []
-    for name, row in zip(names + stiff, study('prm/verification/auto.prm') + study('prm/verification/auto_stiff.prm')):
-        lines.append([name, '%.3g %%' % (100 * row['Load steps / Tolerance']), row['answer'].split(' and ')[0],
-                      percent(row['error_estimate']), percent(row['difference_max']),
-                      '%.1f' % (row['error_estimate'] / row['difference_max'])])
-    return long_table('auto', ['scene', 'tolerance', 'answer', 'estimate', 'true error', 'estimate / true'], lines,
-                      [('main',), ('soft implant, 30 MPa',), ('180 000 MPa/mm',), ('1e6 MPa/mm',)])
+    for name, (row, directory) in zip(names, runs_to_accuracy()):
+        chosen = text_of(directory + '/parameters.prm')
+        cells = [re.search(r'subsection %s\n.*?set Cells +=([^#\n]*)' % body, chosen, re.S)[1].strip() for body in ('Bone', 'Implant')]
+        estimate, error = row['error_estimate'], row['difference_max']
+        seconds = row['wall_seconds'] + json.loads(text_of(directory + '/coarser/summary.json'))['wall_seconds']
+        lines.append([name, ' / '.join(cells), percent(estimate), percent(error), two_digits(estimate / error), two_digits(seconds) + ' s'])
+    if options.check:
+        lines = with_seconds_of('accuracy', lines)
+    return long_table('accuracy', ['scene', 'cells chosen, bone / implant', 'estimate', 'true error', 'estimate / true', 'seconds'], lines, [
+        ('main',), ('soft implant, 30 MPa',), ('1e6 MPa/mm',), ('1e5 MPa/mm: disk pattern, f = 0.55',), ('1e5 MPa/mm: near the edge',)])
 
 
 @numbers('minutes')
-def auto_levels():
-    scenes, factors = ('prm/verification/auto.prm', 'prm/verification/auto_stiff.prm'), []
-    for scene in scenes:
-        study(scene)
-    for file in [file for scene in scenes for file in glob.glob(directory_of(scene, ()) + '/variant-*/auto.csv')]:
-        with open(file, encoding='utf-8') as text:
-            for row in csv.DictReader(text):
-                level = '%s/rung-%s/summary.json' % (os.path.dirname(file), row['rung'])
-                if os.path.exists(level): # it may not be applicable
-                    with open(level, encoding='utf-8') as summary:
-                        true = json.load(summary)['difference_max']
-                    if true and math.isfinite(float(row['estimate'])):
-                        factors.append(float(row['estimate']) / true)
-    return '%d levels of these chains that have an estimate it bounds the error, %.2f to %.1f times' % (len(factors), min(factors), max(factors))
-
-
-@numbers('minutes')
-def auto_factors():
-    return auto_levels().partition('error, ')[2]
+def accuracy_errors():
+    errors = sorted(row['difference_max'] for row, _ in runs_to_accuracy())
+    return '%s to %s' % (percent(errors[0]), percent(errors[-1]))
 
 
 @numbers('minutes')
@@ -1580,7 +1575,7 @@ def entry(default, allowed, meaning, links):
     in_words = re.search(r'(an expression in t), in (.+)$', allowed)
     unit = in_brackets[1] if in_brackets else in_words[2] if in_words else ''
     allowed = allowed.replace(in_brackets[0], '', 1) if in_brackets else in_words[1] if in_words else allowed
-    choices = allowed.split(' | ') if ' | ' in allowed else []
+    choices = re.sub('^auto, or ', 'auto | ', allowed).split(' | ') if ' | ' in allowed else []
     # a line for each choice that is explained, where two or more are
     labels = '|'.join(map(re.escape, choices))
     begins = [match.start() for match in re.finditer(r"(?:(?<=^)|(?<=[.:;] ))`(?:%s)'(?:, `(?:%s)')*:" % (labels, labels), meaning)] if choices else []

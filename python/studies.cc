@@ -6,6 +6,7 @@
 #include <debond/output/profile_output.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/output/result_files.h>
+#include <debond/scene/finer_scenes.h>
 #include <debond/support/interruption.h>
 #include <debond/support/number_text.h>
 #include <debond/support/progress.h>
@@ -107,6 +108,7 @@ bind_studies(py::module_ &module)
   });
   module.def("check_variant", check_variant);
   module.def("parameters_in", parameters_in);
+  module.def("is_same_scene", is_same_scene);
   module.def("json_in", [](const std::string &filename) {
     return read_json(filename).dump();
   });

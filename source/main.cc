@@ -1,6 +1,6 @@
+#include <debond/campaigns/accurate_run.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/input/input_file.h>
-#include <debond/models/debonding_problem.h>
 #include <debond/models/resumed_run.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/output/result_files.h>
@@ -410,7 +410,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     catch_interruptions();
     Scene scene          = run->scene;
     scene.output.timings = arguments.verbose;
-    with_report(scene, [&] { DebondingProblem(scene).run(&run->checkpoint); });
+    with_report(scene,
+                [&] { run_to_accuracy(scene, nullptr, &*run->checkpoint); });
   }
 
 
@@ -490,13 +491,11 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       return run_scene(scene, nullptr, &std::cout);
     // Closed forms are done before they could be asked to stop. Finite elements
     // leave a checkpoint after the step at work.
-    if (scene.model == ModelKind::finite_elements ||
-        scene.model == ModelKind::automatic)
+    if (scene.model == ModelKind::finite_elements)
       catch_interruptions();
-    // Finite elements, a closed form, or the cheapest of them that will do, as
-    // the entry `Model` says. It throws RunError where the load cannot be
-    // followed and Interrupted after a signal; the rows before are on the disk
-    // by then.
+    // Finite elements or a closed form, as the entry `Model` says. It throws
+    // RunError where the load cannot be followed and Interrupted after a
+    // signal; the rows before are on the disk by then.
     with_report(scene, [&] { run_scene(scene); });
   }
 

@@ -22,7 +22,7 @@ COMMENT = re.compile(r'\s*#\s*(let|expect|wrong|refused|failed|slow run|run)(?:\
 UNREAD = re.compile(r'\s*#\s*((let|wrong|refused|failed|slow run|run)\b[^.]*:|expect\b)')  # meant to be one, with a slip of the pen
 QUANTITY = re.compile(r'(?P<name>\w+)(?: of (?P<kind>variant|run) (?P<which>\S+?))?'
                       r'(?: (?:(?P<measure>max|last)|(?P<how>at|ripple after) (?P<where>\w+)(?: (?P<place>\S+))?))?')
-EXPECTATION = re.compile(r'(?:in (?P<all>rows|curve|levels|variants)(?: where (?P<where>.+?))?: )?'
+EXPECTATION = re.compile(r'(?:in (?P<all>rows|curve|variants)(?: where (?P<where>.+?))?: )?'
                          r'(?P<left>.+?) (?P<relation>=|below|above) (?P<right>.+?)'
                          r'(?: within (?P<tolerance>.+?)(?P<percent> %)?)?')
 BUILT_IN = {function.__name__: function for function in (abs, max, min, range, sum)}
@@ -37,11 +37,11 @@ def equal(a, b):
 
 
 class Results:
-    """What a run, a variant or a level has written: numbers of its summary, and rows."""
+    """What a run or a variant has written: numbers of its summary, and rows."""
 
     def __init__(self, summary, rows=(), messages=()):
         self.summary, self.rows, self.messages = summary, list(rows), list(messages)
-        self.curve, self.variants, self.levels = [], [], []  # rows of the curve between those of the steps, Results
+        self.curve, self.variants = [], []  # rows of the curve between those of the steps, Results
 
     def column(self, name):
         if not self.rows or name not in self.rows[0]:
@@ -88,20 +88,12 @@ def read_json(name):
 
 
 def read_run(directory):
-    """Results of a run, with the levels that Model = auto has tried."""
     summary = read_json(directory + '/summary.json')
     names = [directory + '/' + name for name in ('reactions.csv', 'torque.csv')]
     rows = next((read_csv(name) for name in names if os.path.exists(name)), [])
     results = Results(numbers_of(summary), rows, summary.get('warnings', []) + summary.get('remarks', []))
     if os.path.exists(directory + '/curve.csv'):
         results.curve = read_csv(directory + '/curve.csv')
-    if os.path.exists(directory + '/auto.csv'):
-        with open(directory + '/auto.csv', newline='') as file:
-            for level in csv.DictReader(file):
-                if not level['verdict'].startswith(('refused', 'failed')):
-                    of_level = numbers_of(read_json(f'{directory}/rung-{level["rung"]}/summary.json'))
-                    results.levels.append(Results({**of_level, 'estimate': float(level['estimate']),
-                                                   'tolerance': float(summary['error_tolerance'])}))
     return results
 
 
@@ -113,7 +105,6 @@ def read_study(directory):
         variant = read_run(own) if os.path.exists(own + '/summary.json') else Results({})
         variant.summary.update(row)
         study.variants.append(variant)
-        study.levels += variant.levels
     return study
 
 

@@ -17,6 +17,7 @@ import _debond
 
 from . import measurement
 from .errors import RunError, SceneError
+from .page_data import USUAL
 
 # Entries of Calibration that say what instruments add, by the unit of the positions or loads that they show.
 _RIG = {"deg": ("Angle offset", "Slack", "Machine compliance"), "N mm": ("Torque offset", "Torque drift"),
@@ -100,7 +101,8 @@ class Experiment:
         """Ends of steps half as wide as these, which adaptive ones have chosen, or as those planned."""
         start = self.scene.sample_times[0]
         if not steps:
-            times, numbers = ([float(item) for item in self.values["Load steps / " + name].split(",")] for name in ("Times", "Steps"))
+            texts = [self.values["Load steps / " + name] for name in ("Times", "Steps")]
+            times, numbers = ([float(item) for item in (USUAL["Load steps / Steps"] if text == "auto" else text).split(",")] for text in texts)
             steps = [numpy.linspace(begin, end, int(n) + 1)[1:] for begin, end, n in zip(times, times[1:], numbers)]
         starts = [start, *(ends[-1] for ends in steps[:-1])]
         return [numpy.unique(numpy.r_[ends, (numpy.array([begin, *ends[:-1]]) + ends) / 2]).tolist() for begin, ends in zip(starts, steps)]

@@ -41,13 +41,12 @@ def finite(*columns):
 
 
 def thinned(xs, ys, most):
-    """At most so many rows: of each of the parts of a longer curve the lowest, the highest and the first."""
+    """The numbers of at most so many rows: of each of the parts of a longer curve the lowest, the highest and the first."""
     if len(xs) <= most:
-        return xs, ys
+        return range(len(xs))
     size = math.ceil(3 * len(xs) / most)
-    keep = sorted({k for i in range(0, len(xs), size) for part in [range(i, min(i + size, len(xs)))]
+    return sorted({k for i in range(0, len(xs), size) for part in [range(i, min(i + size, len(xs)))]
                    for k in (i, min(part, key=ys.__getitem__), max(part, key=ys.__getitem__))} | {len(xs) - 1})
-    return [xs[k] for k in keep], [ys[k] for k in keep]
 
 
 class Plot:
@@ -56,14 +55,15 @@ class Plot:
     def __init__(self, x, y, about, high=HIGH):
         self.x, self.y, self.about, self.high, self.series, self.levels, self.labels = x, y, about, high, [], [], []
 
-    def add(self, name, kind, xs, ys, colour, most=4000):
-        """Adds a "line", "points", single large "marks", or a "band" between the first half of the rows and the second."""
-        xs, ys = finite(xs, ys)
+    def add(self, name, kind, xs, ys, colour, most=4000, errors=()):
+        """Adds a "line", "points", single large "marks", or a "band" between the first half of the rows and the second. Errors
+        of the ordinates are read out with them."""
+        xs, ys, *errors = finite(xs, ys, *[errors] * bool(errors))
         if kind == "line":
-            xs, ys = thinned(xs, ys, most)
+            xs, ys, *errors = ([values[k] for k in thinned(xs, ys, most)] for values in (xs, ys, *errors))
             kind = kind if len(xs) > 1 else "points"
         if xs:
-            self.series.append({"name": name, "kind": kind, "x": xs, "y": ys, "colour": colour})
+            self.series.append({"name": name, "kind": kind, "x": xs, "y": ys, "colour": colour, **{"e": one for one in errors}})
 
     def band(self, name, xs, lower, upper, colour):
         xs, lower, upper = finite(xs, lower, upper)
@@ -119,7 +119,7 @@ class Plot:
             shapes.append({**one, "path": path + "Z" * (one["kind"] == "band")})
         # names, places and values from which the script reads out; seven digits are more than it shows
         data = {"x": limits[0], "y": limits[1], "box": (LEFT, TOP, WIDE, self.high), "units": (self.x[1], self.y[1]), "series": [
-            {"name": one["name"], **{axis: [float(f"{value:.7g}") for value in one[axis]] for axis in "xy"}}
+            {"name": one["name"], **{axis: [float(f"{value:.7g}") for value in one[axis]] for axis in "xye" if axis in one}}
             for one in self.series if one["kind"] in ("line", "points")]}
         return {"x": self.x, "y": self.y, "about": self.about, "shapes": shapes, "levels": self.levels, "data": data,
                 "labels": self.placed_labels(lambda x: (x - left) * fx, lambda y: (high - y) * fy),

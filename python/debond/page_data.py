@@ -13,6 +13,11 @@ CHANCE = "Interface / Bonding / Seed"  # a study over it is an ensemble
 UNITS = (("_Nmm_per_rad", "N mm/rad"), ("_MPa_per_mm", "MPa/mm"), ("_N_per_m", "N/m"), ("_Nmm", "N mm"), ("_MPa", "MPa"),
          ("_deg", "°"), ("_mm2", "mm²"), ("_mm", "mm"), ("_MB", "MB"), ("_N", "N"))
 
+#: What `auto` stands for, but for what Accuracy chooses.
+USUAL = {"Bone / Cells": "15, 15, 2", "Implant / Cells": "3, 2", "Load steps / Steps": "1, 1000", "Load steps / Adaptive": "false",
+         "Load steps / Tolerance": "0.001", **{f"{body} / {name}": text for body in ("Bone", "Implant") for name, text in
+                                               (("Material", "neo-hookean"), ("Element", "trilinear"), ("Layer grading", "1"))}}
+
 
 class NoResults(InputError):
     """A directory has no results, or some that cannot be read; the text is one line."""
@@ -93,8 +98,10 @@ def read_entries(path):
                     sections.pop()
                 elif line.startswith("set "):
                     name, _, value = line[len("set "):].partition("=")
-                    if value.strip() not in ("auto", "none"):
-                        entries[" / ".join([*sections, name.strip()])] = value.strip()
+                    name, value = " / ".join([*sections, name.strip()]), value.strip()
+                    value = USUAL.get(name, value) if value == "auto" else value
+                    if value not in ("auto", "none"):
+                        entries[name] = value
     return entries
 
 
@@ -131,8 +138,17 @@ def members(summary, rows, least=0.):
     in the name, or (name, words, term, factor, unit). Values below that share of the largest are left out."""
     values = [(row[3] if len(row) > 3 else 1) * number(summary.get(row[0])) for row in rows]
     largest = max((abs(value) for value in values if math.isfinite(value)), default=0)
-    return [(row[1], row[2], with_unit(value, row[4] if len(row) > 3 else split_unit(row[0])[1]))
+    return [(row[1], row[2], with_error(value, number(summary.get(row[0] + "_error")), row[4] if len(row) > 3 else split_unit(row[0])[1]))
             for row, value in zip(rows, values) if math.isfinite(value) and abs(value) >= least * largest]
+
+
+def with_error(value, error, unit):
+    """"53.80 ± 0.03 N mm", two digits of the error; the value alone if there is none."""
+    if not error > 1e-9 * abs(value):
+        return with_unit(value, unit)
+    decimals = 1 - math.floor(math.log10(error))
+    texts = [f"{one:.{decimals}f}" if decimals >= 0 else f"{round(one, decimals):.0f}" for one in (value, error)]
+    return " ± ".join(texts) + (unit if unit in ("", "°") else f" {unit}")
 
 
 def symbols(text):

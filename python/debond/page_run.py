@@ -58,7 +58,12 @@ def curve_of(directory, summary, entries):
     x, y = labels_of(axes)
     plot, (xs, ys) = Plot(x, y, "curve of the run"), columns_of(curve_file(directory), axes)
     plot.add("reference", "points", *reference_of(directory, axes), "#555555")
-    plot.add("debond", "line", xs, ys, "#0072b2")
+    errors = read_table(os.path.join(directory, "errors.csv"))
+    errors = numbers(errors.get(axes[1] + "_error", []))
+    errors = errors if len(errors) == len(xs) else []
+    if errors:
+        plot.band("estimated error", xs, [y - e for y, e in zip(ys, errors)], [y + e for y, e in zip(ys, errors)], "#0072b2")
+    plot.add("debond", "line", xs, ys, "#0072b2", errors=errors)
     if "curve" not in summary:
         add_marks_of_torque(plot, xs, ys, summary, entries.get("Output / Reference marks", ""))
     elif xs:
@@ -93,5 +98,4 @@ def context_of_run(directory):
             "summary": summary, "entries": entries,
             "curve": curve_of(directory, summary, entries), "is_mu_phi": is_mu_phi,
             "maps": maps_of(os.path.join(directory, "maps.csv"), without=["mu"] * is_mu_phi),
-            "levels": read_table(os.path.join(directory, "auto.csv")),
             "origin": origin_of(summary, summary.get("wall_seconds")), "files": files_of(directory)}

@@ -187,8 +187,6 @@ class Scene:
         team = _team(comm)
         scene = self._read(team)
         model = scene.values["Model"]
-        if model == "auto":
-            raise SceneError("Model = auto writes into a directory: write() does it")
         if model != "finite elements":
             rows, summary = _debond.closed_form(scene, team)
             return Result(rows, _known(summary), scene.warnings)

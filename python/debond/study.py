@@ -55,7 +55,7 @@ class Variant:
     def look_up(self):
         """Reads what its directory holds. Returns the text of parameters.prm there, None without one."""
         existing = _debond.parameters_in(self.directory)
-        if existing == self.scene.parameters:
+        if existing is not None and _debond.is_same_scene(self.scene.parameters, existing):
             self.summary = json.loads(_debond.json_in(self.directory + "/summary.json"))
         origin = self.summary.get("provenance")
         program = origin.get("program", "") if isinstance(origin, dict) else ""
@@ -218,7 +218,7 @@ class Study:
         n_compared_anew = 0
         for variant in self.variants:
             existing, place = variant.look_up(), variant.directory
-            is_this = existing == variant.scene.parameters
+            is_this = existing is not None and _debond.is_same_scene(variant.scene.parameters, existing)
             why = (f"{place} holds results of another scene (compare its parameters.prm): choose another directory, or overwrite them "
                    "with --force" if existing is not None and not is_this else
                    f"{place} holds results of {variant.other_program}, and this is {_debond.program}: choose another directory, or "

@@ -1,9 +1,10 @@
-#include <debond/campaigns/model_choice.h>
+#include <debond/campaigns/accurate_run.h>
 #include <debond/campaigns/run_scene.h>
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/resumed_run.h>
 #include <debond/output/curve_comparison.h>
+#include <debond/scene/finer_scenes.h>
 #include <debond/scene/scene.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
@@ -41,15 +42,15 @@ namespace Debond
             *plan << "warning: " << doubt << '\n';
         if (scene.model == ModelKind::finite_elements)
           {
-            DebondingProblem problem(scene, std::move(bodies));
-            plan != nullptr ? problem.check(*plan) : problem.run();
+            if (plan != nullptr)
+              {
+                print_choices(scene, *plan);
+                DebondingProblem(scene, std::move(bodies)).check(*plan);
+              }
+            else
+              run_to_accuracy(scene, std::move(bodies));
           }
-        else if (scene.model == ModelKind::automatic && Ranks::number() > 1)
-          throw EntryError("Model",
-                           "auto runs in one process: expected finite "
-                           "elements, or one process");
-        else if (scene.model == ModelKind::automatic)
-          plan != nullptr ? check_auto(scene, *plan) : run_auto(scene);
+
         else
           {
             const ClosedFormSolution solution(scene);
@@ -134,7 +135,12 @@ namespace Debond
       if (const auto checkpoint = find_checkpoint(scene))
         try
           {
-            return DebondingProblem(scene, bodies).run(&*checkpoint);
+            const Scene now = with_choices_of(scene, checkpoint->parameters);
+            const bool  has_its_bodies =
+              what_bodies_depend_on(now) == what_bodies_depend_on(scene);
+            return run_to_accuracy(now,
+                                   has_its_bodies ? bodies : nullptr,
+                                   &*checkpoint);
           }
         catch (const ForeignCheckpoint &) // of groups, or from before them
           {

@@ -42,11 +42,12 @@ namespace Debond
                 const std::string                              &words,
                 const std::function<bool(const std::string &)> &is_other)
     {
-      return {[test = values.test, is_other](const std::string &text) {
-                return is_other(text) || test(text);
-              },
-              words + ", or " + values.description,
-              values.hint};
+      AllowedValues result = values;
+      result.test = [test = values.test, is_other](const std::string &text) {
+        return is_other(text) || test(text);
+      };
+      result.description = words + ", or " + values.description;
+      return result;
     }
   } // namespace
 

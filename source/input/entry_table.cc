@@ -177,6 +177,16 @@ namespace Debond
 
 
 
+  bool
+  EntryTable::means(const SceneEntry &entry, const std::string &text) const
+  {
+    const Row *const row = row_of(entry.full_name());
+    return row != nullptr && row->allowed.without_words(entry.value) ==
+                               row->allowed.without_words(text);
+  }
+
+
+
   std::vector<SceneEntry>
   EntryTable::entries() const
   {

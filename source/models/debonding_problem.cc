@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -25,9 +26,12 @@ namespace Debond
 {
   namespace
   {
+    /** Refuses to overwrite that of a run in the directory, or of the coarser
+     * one that came before it. */
     void
-    refuse_checkpoint(const ResultDirectory &directory)
+    refuse_checkpoint(const ResultDirectory &results, const std::string &run)
     {
+      const ResultDirectory directory(run);
       if (read_json(directory.file("summary.json"))["converged"] == true)
         return;                         // that of the end can be computed again
       std::vector<std::string> damaged; // of no use to anyone
@@ -36,31 +40,44 @@ namespace Debond
                                 << " holds the checkpoint of a run that was "
                                    "interrupted after step "
                                 << checkpoint->step << ": debond --resume "
-                                << directory.path()
+                                << results.path()
                                 << " goes on with it, --force begins anew");
     }
 
 
 
-    /** A run that begins anew leaves nothing of an earlier one that would be
-     *  taken for its own, but does not destroy a checkpoint either. Only the
-     *  first rank finds that the directory is locked or cannot be written. */
-    ResultDirectory
-    open_directory(const Scene &scene, const bool resumes)
-    {
-      std::optional<ResultDirectory> directory;
-      Ranks::in_agreement([&] {
-        if (resumes)
-          {
-            directory.emplace(scene.output.directory);
-            return;
-          }
-        directory.emplace(scene.output, scene.completed_parameters);
-        if (!scene.output.overwrite_other_results)
-          refuse_checkpoint(*directory);
-      });
-      return *directory;
-    }
+  } // namespace
+
+
+
+  // A run that begins anew leaves nothing of an earlier one that would be taken
+  // for its own, but does not destroy a checkpoint either. Only the first rank
+  // finds that the directory is locked or cannot be written.
+  ResultDirectory
+  open_directory(const Scene &scene, const bool resumes)
+  {
+    std::optional<ResultDirectory> directory;
+    Ranks::in_agreement([&] {
+      if (resumes)
+        {
+          directory.emplace(scene.output.directory);
+          return;
+        }
+      directory.emplace(scene.output, scene.completed_parameters);
+      if (scene.output.overwrite_other_results)
+        return;
+      refuse_checkpoint(*directory, directory->path());
+      if (std::filesystem::exists(directory->file("coarser")) &&
+          read_json(directory->file("summary.json"))["converged"] != true)
+        refuse_checkpoint(*directory, directory->file("coarser"));
+    });
+    return *directory;
+  }
+
+
+
+  namespace
+  {
 
 
 
@@ -330,6 +347,8 @@ namespace Debond
                       {"bonded_area_mm2", bonding.bonded_area},
                       {"bonded_patches", bonding.patches},
                       {"largest_bonded_patch_mm2", bonding.largest_patch},
+                      {"change_at_large_strains",
+                       simulation.checks().change_at_large_strains()},
                       {"jumps", released.n_jumps},
                       {"released_energy_Nmm", released.total}});
         report.finish(simulation.rows(), simulation.curve_settings(), facts);

@@ -1,6 +1,7 @@
 #include <debond/input/scene_file.h>
 #include <debond/models/resumed_run.h>
 #include <debond/output/result_files.h>
+#include <debond/scene/finer_scenes.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -58,6 +59,7 @@ namespace Debond
       // by the names of entries, and of what the parameters say of files by
       // itself (Scene::completed_parameters)
       std::map<std::string, std::array<std::string, 2>> values;
+      const std::vector<std::string> chosen = choices_in(parameters);
       for (const unsigned int which : {0, 1})
         {
           const std::string &text = which == 0 ? parameters : earlier;
@@ -67,12 +69,15 @@ namespace Debond
           };
           for (const SceneEntry &entry : read_scene_text(text, "checkpoint"))
             if (free_entries.count(entry.full_name()) == 0 &&
+                std::count(chosen.begin(), chosen.end(), entry.full_name()) ==
+                  0 &&
                 !(is_extension && is_of_extension(entry.full_name())))
               note(entry.full_name(), entry.value);
           Classic<std::istringstream> lines(text);
           for (std::string line; std::getline(lines, line);)
             if (const auto colon = line.rfind(": ");
-                line.rfind("# ", 0) == 0 && colon != line.npos)
+                line.rfind("# ", 0) == 0 && colon != line.npos &&
+                choices_in(line + "\n").empty())
               note(line.substr(2, colon - 2), line.substr(colon + 2));
         }
       std::string list;
@@ -101,6 +106,21 @@ namespace Debond
           throw InputError("--resume '" + results.path() + "': --set '" + text +
                            "' names another directory, but a run goes on in "
                            "the directory of its results");
+    }
+  } // namespace
+
+
+
+  namespace
+  {
+    Scene
+    scene_of(const std::string              &parameters,
+             const std::vector<std::string> &overrides,
+             const ResultDirectory          &results)
+    {
+      return Scene::from_entries(with_overrides(open_choices(parameters),
+                                                overrides),
+                                 results.file("parameters.prm"));
     }
   } // namespace
 
@@ -149,17 +169,20 @@ namespace Debond
         return std::nullopt;
       }
 
-    const auto checkpoint = CheckpointFiles(results).newest(run.remarks);
+    run.checkpoint = CheckpointFiles(results).newest(run.remarks);
+    // the coarser run comes first
+    if (!run.checkpoint && fs::exists(results.file("coarser/parameters.prm")))
+      run.checkpoint = Checkpoint{0, *parameters_in(directory), ""};
+    const auto &checkpoint = run.checkpoint;
     refuse_if(!checkpoint,
               "there is no checkpoint to go on from; " +
                 boost::join(run.remarks, "; ") +
                 (run.remarks.empty() ? "" : "; ") + "run the scene again");
-    run.checkpoint                 = *checkpoint;
-    run.scene                      = scene_file.empty() ?
-                                       Scene::from_text(checkpoint->parameters,
-                                   overrides,
-                                   results.file("parameters.prm")) :
-                                       Scene::from_file(scene_file, overrides);
+    run.scene =
+      with_choices_of(scene_file.empty() ?
+                        scene_of(checkpoint->parameters, overrides, results) :
+                        Scene::from_file(scene_file, overrides),
+                      checkpoint->parameters);
     const bool        goes_further = extends(run.scene, checkpoint->parameters);
     const std::string different    = differences(run.scene.completed_parameters,
                                               checkpoint->parameters,

@@ -1,5 +1,7 @@
+#include <debond/input/csv_table.h>
 #include <debond/input/entry_table.h>
 #include <debond/models/run_report.h>
+#include <debond/output/error_estimate.h>
 #include <debond/output/reference_comparison.h>
 #include <debond/support/number_text.h>
 #include <debond/support/provenance.h>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 
 namespace Debond
@@ -32,6 +35,23 @@ namespace Debond
 
 
 
+    /** "53.80 +- 0.03": two digits of the error. */
+    std::string
+    with_error(const double value, const double error)
+    {
+      if (!(error > 1e-9 * std::abs(value)))
+        return to_text(value, 6);
+      const int  decimals = 1 - std::floor(std::log10(error));
+      const auto text     = [&](const double number) {
+        const double unit = std::pow(10., -decimals); // 10, 100 ...
+        return decimals >= 0 ? fixed_text(number, decimals) :
+                                   fixed_text(unit * std::round(number / unit), 0);
+      };
+      return text(value) + " +- " + text(error);
+    }
+
+
+
     /** Words with the numbers of members whose names stand in braces; empty if
      *  one of these is not known. */
     std::string
@@ -47,7 +67,12 @@ namespace Debond
                  number_in(summary, words.substr(begin + 1, length - 2));
                if (!std::isfinite(value))
             return "";
-          words.replace(begin, length, to_text(value, digits));
+          const double error =
+                 number_in(summary, words.substr(begin + 1, length - 2) + "_error");
+               words.replace(begin,
+                        length,
+                        error >= 0. ? with_error(value, error) :
+                                           to_text(value, digits));
         }
       return words;
     }
@@ -107,6 +132,16 @@ namespace Debond
         effort};
       if (!lines[0].empty())
         lines[0] += words(", 99.9 % of it up to {theta_full_deg} deg");
+      if (const double error = number_in(summary, "error_estimate"); error > 0.)
+        lines.push_back(
+          "Estimated error " + to_text(100. * error, 2) +
+          " % of the largest load: " +
+          to_text(100. * number_in(summary, "error_of_cells"), 2) +
+          " % by cells, " +
+          to_text(100. * number_in(summary, "error_of_steps"), 2) +
+          " % by steps, " +
+          to_text(100. * number_in(summary, "error_of_bodies"), 2) +
+          " % by linear bodies");
       lines.erase(std::remove(lines.begin(), lines.end(), ""), lines.end());
       return lines;
     }
@@ -176,6 +211,41 @@ namespace Debond
 
 
 
+  // What the coarser run says of this one.
+  void
+  RunReport::write_errors(const std::vector<TorqueRow> &fine,
+                          nlohmann::ordered_json       &summary)
+  {
+    const std::string coarser = directory.file("coarser");
+    if (scene.accuracy == 0. || fine.empty() ||
+        !std::filesystem::exists(coarser + "/parameters.prm"))
+      return;
+    const ErrorEstimate errors(scene, fine, summary, coarser);
+    summary.update(errors.members);
+    summary.update({{"error_estimate", errors.total},
+                    {"error_of_cells", errors.cells},
+                    {"error_of_steps", errors.steps},
+                    {"error_of_bodies", errors.bodies}});
+    if (!errors.why_unknown.empty())
+      console.warn("error",
+                   "the error is not known, for a coarser run of the scene is "
+                   "no help: " +
+                     errors.why_unknown);
+    if (errors.of_rows.empty())
+      return;
+    const CurveAxes &axes  = scene.output.axes;
+    std::string      table = axes.position_column() + "," + axes.load_column() +
+                        "," + errors.column + "_error\n";
+    const ReferenceCurve curve = curve_of(fine, axes);
+    for (std::size_t i = 0; i < curve.size(); ++i)
+      table += csv_line(std::vector<double>{curve[i].first,
+                                            curve[i].second,
+                                            errors.of_rows[i]});
+    write_file(directory.file("errors.csv"), table);
+  }
+
+
+
   void
   RunReport::finish(const std::vector<TorqueRow> &rows,
                     CurveSettings                 settings,
@@ -190,6 +260,7 @@ namespace Debond
     summary.update(tables.measures());
     summary.update(facts);
     const std::vector<TorqueRow> fine = fine_curve(rows);
+    write_errors(fine, summary);
     if (fine.size() > rows.size())
       write_file(directory.file("curve.csv"), torque_table(fine, true));
     if (!reference.empty())

@@ -258,7 +258,7 @@ namespace Debond
           return row.share_open == 1.;
         }))
       warn({"no contact", "the bodies are never in contact"});
-    state_checks.judge_strains(coupled_system);
+    state_checks.judge_strains(coupled_system, scene.accuracy > 0.);
     const LoadSteppingParameters &load_steps = scene.load_steps;
     if (solver.time() != load_steps.times.back() &&
         load_steps.path_ends_at_slip == 0.)

@@ -33,12 +33,7 @@ namespace Debond
                              const std::string             &name)
     : scene(without_reference(entries), name)
     , given(scene.with({}))
-  {
-    if (given.model == ModelKind::automatic)
-      throw given.with_place(
-        EntryError("Model",
-                   "a calibration compares curves of one model: choose it"));
-  }
+  {}
 
 
 

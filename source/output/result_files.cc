@@ -1,4 +1,5 @@
 #include <debond/output/result_files.h>
+#include <debond/scene/finer_scenes.h>
 #include <debond/support/input_error.h>
 #include <debond/support/laboratory.h>
 #include <debond/support/number_text.h>
@@ -23,13 +24,14 @@ namespace Debond
     namespace fs = std::filesystem;
     if (!Ranks::is_first())
       return;
-    static const std::regex rung("rung-[0-9]+"),
-      file("(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
-           "report\\.html|torque\\.(svg|png)|"
-           "(torque|reactions|curve|curve_at|reference|auto|bonding|profiles|"
-           "friction_law|maps|correlations|profile|fit(-[0-9]+)?)\\.csv|"
-           "calibration\\.json|fitted(-[0-9]+)?\\.prm|evaluations\\.jsonl|"
-           "(bulk|interface|points)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
+    static const std::regex rung("coarser|rung-[0-9]+"),
+      file(
+        "(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
+        "report\\.html|torque\\.(svg|png)|"
+        "(torque|reactions|curve|curve_at|errors|reference|auto|bonding|profiles|"
+        "friction_law|maps|correlations|profile|fit(-[0-9]+)?)\\.csv|"
+        "calibration\\.json|fitted(-[0-9]+)?\\.prm|evaluations\\.jsonl|"
+        "(bulk|interface|points)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
     const fs::directory_iterator entries(directory);
     for (const fs::path &path :
          std::vector<fs::path>(fs::begin(entries), fs::end(entries)))
@@ -40,6 +42,28 @@ namespace Debond
         if (is_rung || std::regex_match(name, file))
           fs::remove_all(path);
       }
+  }
+
+
+
+  void
+  keep_as_coarser(const std::string &directory,
+                  const std::string &completed_parameters)
+  {
+    namespace fs = std::filesystem;
+    if (!Ranks::is_first())
+      return;
+    const fs::path coarser = fs::path(directory) / "coarser",
+                   kept    = fs::path(directory) / "coarser.partial";
+    fs::remove_all(kept);
+    fs::create_directory(kept);
+    for (const char *const name :
+         {"summary.json", "torque.csv", "reactions.csv", "curve.csv"})
+      if (fs::exists(fs::path(directory) / name))
+        fs::rename(fs::path(directory) / name, kept / name);
+    remove_results(directory);
+    fs::rename(kept, coarser);
+    ResultDirectory(coarser).write_parameters(completed_parameters);
   }
 
 
@@ -97,8 +121,9 @@ namespace Debond
     if (!lock) // there was no directory yet
       lock = lock_directory(directory);
 
-    const auto existing          = parameters_in(directory);
-    const bool is_of_other_scene = existing && existing != completed_parameters;
+    const auto existing = parameters_in(directory);
+    const bool is_of_other_scene =
+      existing && !is_same_scene(completed_parameters, *existing);
     if (is_of_other_scene && !output.overwrite_other_results)
       refuse("this directory holds results of another scene (compare its "
              "parameters.prm): choose another one, or overwrite them with "

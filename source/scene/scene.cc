@@ -138,7 +138,11 @@ namespace Debond
   {
     EntryTable table;
     declare(table);
-    take_entries(*this, table.entries());
+    std::vector<SceneEntry> entries = table.entries();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (table.means(entries[i], values[i])) // `auto', or what it stands for
+        entries[i].value = values[i];
+    take_entries(*this, entries);
   }
 
 
@@ -152,17 +156,22 @@ namespace Debond
     scene.name    = name;
     EntryTable table;
     scene.declare(table);
+    std::vector<std::string> chosen;
     for (const SceneEntry &entry : entries)
       {
         table.set(entry);
         if (!default_entries().has(entry))
           scene.changed_entries.push_back(entry);
       }
-    if (scene.model == ModelKind::automatic)
-      scene.load_steps.adaptive = true;
+
     try
       {
         scene.chuck.read_tables();
+        for (const SceneEntry &entry : scene.chosen_entries())
+          {
+            table.set(entry);
+            chosen.push_back(entry.full_name());
+          }
         scene.take_values();
         scene.check();
         take_curve(scene);
@@ -172,6 +181,7 @@ namespace Debond
         throw scene.with_place(error);
       }
     take_entries(scene, table.entries());
+    scene.note_choices(chosen);
     return scene;
   }
 

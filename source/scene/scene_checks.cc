@@ -258,27 +258,10 @@ namespace Debond
     void
     check_model(const Scene &scene)
     {
-      const BondingParameters &bonding = scene.interface.bonding;
       if (scene.bone.modulus && scene.model != ModelKind::finite_elements)
         throw EntryError("Bone / Young modulus",
                          "one that varies is for Model = finite elements, and "
                          "closed forms know none: expected a number");
-      if (scene.model != ModelKind::automatic)
-        return;
-      for (const bool is_bone : {true, false})
-        if ((is_bone ? scene.bone : scene.implant).mesh)
-          throw EntryError(is_bone ? "Bone / Shape" : "Implant / Shape",
-                           "Model = auto makes its own meshes: expected Model "
-                           "= finite elements, or another shape");
-      // such patterns are others on other meshes
-      const bool is_random = bonding.pattern == BondingPatternKind::random;
-      if (bonding.pattern == BondingPatternKind::file ||
-          (is_random && bonding.correlation_length == 0.))
-        throw EntryError(
-          "Interface / Bonding / Pattern",
-          std::string("it belongs to one mesh, but Model = auto compares "
-                      "several: use Model = finite elements, or ") +
-            (is_random ? "give a Correlation length" : "another pattern"));
     }
   } // namespace
 

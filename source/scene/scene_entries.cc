@@ -63,19 +63,8 @@ namespace Debond
 
 
     void
-    declare_campaigns(unsigned int    &largest_number_of_unknowns,
-                      StudyParameters &study,
-                      EntryTable      &table)
+    declare_study(StudyParameters &study, EntryTable &table)
     {
-      table.enter_subsection("Auto");
-      table.add(
-        "Largest number of unknowns",
-        largest_number_of_unknowns,
-        Allowed::whole_number(1, 100000000),
-        "Largest number of unknowns of both bodies, up to which Model = auto "
-        "refines meshes. Memory grows with it: 1 GB for 105 000, some 3 GB "
-        "for 250 000.");
-      table.leave_subsection();
       table.enter_subsection("Study");
       table.add(
         "Reference variant",
@@ -436,19 +425,14 @@ namespace Debond
     table.add("Model",
               model,
               Allowed::choice(
-                "finite elements | foundation | prescribed angles | "
-                "crack | auto"),
+                "finite elements | foundation | prescribed angles | crack"),
               "Model that is solved. `finite elements': two bodies with an "
               "interface between them. `foundation': closed form, a rigid "
               "disk on springs (interface and bodies in series) with the "
               "full friction law. `prescribed angles': closed form, Eq. (18) "
               "of the paper. `crack': closed form, Eqs. (14) to (16) of the "
               "paper. Closed forms are for a coin that is pressed and then "
-              "turned, see subsection Closed form. `auto': the cheapest of "
-              "`foundation' and of finite elements with rigid, linear and "
-              "the scene's own bodies on finer and finer meshes whose "
-              "estimated error of the torque curve is within Load steps / "
-              "Tolerance; the program chooses the steps.");
+              "turned, see subsection Closed form.");
     table.add("Task",
               "simulate",
               nullptr,
@@ -457,15 +441,17 @@ namespace Debond
               "`calibrate': find the numbers that are written as <<START in "
               "LOWER..UPPER>> in entries, such that the curve is closest to "
               "Output / Reference curve; see subsection Calibration.");
+    declare_accuracy(table);
     bone.declare_bone(table);
     implant.declare_implant(table);
     interface.declare(table);
     chuck.declare(table);
     load_steps.declare(table);
     declare_closed_form(closed_form, table);
-    declare_campaigns(largest_number_of_unknowns, study, table);
+    declare_study(study, table);
     declare_calibration(table);
     declare_output(output, table);
     interface.declare_expert(table);
+    declare_limits(table);
   }
 } // namespace Debond

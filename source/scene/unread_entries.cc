@@ -56,11 +56,13 @@ namespace Debond
       const ModelKind model    = scene.model;
       const bool      is_crack = model == ModelKind::crack,
                  of_angles     = model == ModelKind::prescribed_angles,
-                 is_auto       = model == ModelKind::automatic,
-                 of_elements   = model == ModelKind::finite_elements,
-                 follows       = scene.load_steps.follow_path;
-      const auto &changed      = scene.changed_entries;
-      return {{scene.load_steps.adaptive,
+
+                 of_elements = model == ModelKind::finite_elements,
+                 follows     = scene.load_steps.follow_path;
+      const auto &changed    = scene.changed_entries;
+      return {{of_elements, "finite elements", {"Accuracy"}},
+              {scene.accuracy > 0., "an Accuracy", {"Expert / Largest"}},
+              {scene.load_steps.adaptive,
                "Adaptive steps",
                {"Load steps / Tolerance"}},
               {follows,
@@ -70,13 +72,13 @@ namespace Debond
               {!is_crack && !of_angles,
                "Model = foundation",
                {"Closed form / Torsional"}},
-              {of_angles || is_auto,
+              {of_angles,
                "Model = prescribed angles",
                {"Closed form / Linear", "Closed form / Slip"}},
-              {is_crack || is_auto,
+              {is_crack,
                "Model = crack",
                {"Closed form / Shear", "Closed form / Adhesion"}},
-              {is_auto, "Model = auto", {"Auto / "}},
+
               {std::any_of(changed.begin(),
                            changed.end(),
                            [](const SceneEntry &e) {
@@ -96,9 +98,8 @@ namespace Debond
       const bool                 pulls     = interface.joint()->pulls();
       const bool                 is_bonded = law.has_bond() || pulls,
                  rubs                      = !law.is_frictionless,
-                 has_steps = scene.model == ModelKind::finite_elements ||
-                             scene.model == ModelKind::automatic,
-                 by_slip = rubs && scene.model != ModelKind::crack &&
+                 has_steps = scene.model == ModelKind::finite_elements,
+                 by_slip   = rubs && scene.model != ModelKind::crack &&
                            interface.law_choice.law != "mixed mode",
                  // Largest slip step = auto goes by them, also without a bond
         wears = by_slip && (is_bonded || scene.load_steps.follow_path);

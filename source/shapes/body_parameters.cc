@@ -178,6 +178,7 @@ namespace Debond
       "follow the rim of a coin or cap: a (a multiple of 4) around it, i from "
       "a square core to the rim, o from there to the sides, in l layers, "
       "smaller towards the rim and the contact face. `fitted': 16, 6, 10, 9. "
+      "`auto': as Accuracy needs, without it 15, 15, 2. "
       "Fitted cells are for Element = spline and save time where the interface "
       "is stiff.");
     declare_grading(*this, table);
@@ -236,7 +237,7 @@ namespace Debond
       "ring: around (8 or more, of a solid one 8, 12, ...), radially and "
       "along the axis. Of a cup: as Bone / Cells of a cavity. `fitted a, i, l': "
       "cells of a coin that follow its rim, as Bone / Cells. `fitted': 12, "
-      "5, 5.");
+      "5, 5. `auto': as Accuracy needs, without it 3, 2.");
     declare_material(table, false);
     table.leave_subsection();
   }
@@ -404,19 +405,21 @@ namespace Debond
     table.add(
       "Element",
       element,
-      Allowed::choice("trilinear | quadratic | spline"),
-      "Kind of cells. `trilinear': hexahedra with 8 nodes, whose side at the "
+      Allowed::choice("trilinear | quadratic | spline")
+        .or_word_for("auto", "trilinear"),
+      "Kind of cells. `auto': as Accuracy needs, without it trilinear. `trilinear': hexahedra with 8 nodes, whose side at the "
       "contact face is a NURBS surface, as in the paper. `quadratic': the same "
       "with 27 nodes. `spline': quadratic splines in all directions: smaller "
       "error in the same time, especially with cells that follow the rim.");
     table.add(
       "Layer grading",
       layer_grading,
-      allowed_grading,
+      AllowedValues(allowed_grading).or_word_for("auto", "1"),
       "Grading exponent g of the layers of cells behind the contact face: of n "
       "layers over the length H, layer k ends at the distance H (k/n)^g from "
       "the contact face. 1: equal layers. More than 1: thinner layers at the "
-      "interface, where the stress changes most.");
+      "interface, where the stress changes most. `auto': as Accuracy needs, "
+      "without it 1.");
     table.add(
       "Coarser below",
       coarser_below,
@@ -427,8 +430,9 @@ namespace Debond
     table.add(
       "Material",
       material,
-      Allowed::choice("rigid | linear | neo-hookean"),
-      "Material law. `rigid': no deformation. `linear': Hooke's law with "
+      Allowed::choice("rigid | linear | neo-hookean")
+        .or_word_for("auto", "neo-hookean"),
+      "Material law. `auto': as Accuracy needs, without it neo-hookean. `rigid': no deformation. `linear': Hooke's law with "
       "small strains in a frame that moves with the body, so that large "
       "rotations of the implant are exact. `neo-hookean': compressible "
       "Neo-Hooke with finite strains (Eq. 1 of the paper).");

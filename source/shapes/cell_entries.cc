@@ -41,7 +41,9 @@ namespace Debond
     allowed.hint = [=](const std::string &text) {
       return is_word(text) ? "" : of_lattice.hint(text);
     };
-    const auto set = [=](const std::string &text) {
+    allowed = allowed.or_word_for("auto", is_bone ? "15, 15, 2" : "3, 2");
+    const auto set = [=](const std::string &entry) {
+      const std::string text = allowed.without_words(entry);
       fitted_cells = {{0, 0, 0}};
       std::vector<unsigned int> numbers;
       if (!is_word(text))
@@ -70,7 +72,8 @@ namespace Debond
     else if (!is_bone && cells[0] == cells[1])
       numbers.erase(numbers.begin());
     table.add("Cells",
-              (is_fitted() ? word + " " : "") + entry_text(numbers),
+              allowed.in_words((is_fitted() ? word + " " : "") +
+                               entry_text(numbers)),
               set,
               allowed,
               description);

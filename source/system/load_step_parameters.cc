@@ -79,32 +79,33 @@ namespace Debond
     table.add(
       "Steps",
       steps,
-      Allowed::list(Allowed::whole_number(1, 10000000), 1, 0),
+      Allowed::list(Allowed::whole_number(1, 10000000), 1, 0)
+        .or_word_for("auto", "1, 1000"),
       "Number of planned steps in each phase: one number fewer than Times. "
-      "With Adaptive they set the largest step. Finite elements with "
+      "With Adaptive they set the largest step. `auto': as Accuracy needs, "
+      "without it 1, 1000. Finite elements with "
       "friction divide a step that prescribes more than 5 degrees about z, "
       "to keep the work accurate.");
-    table.add("Adaptive",
-              adaptive,
-              Allowed::choice("false | true"),
-              "Let the program choose the steps, at most as large as the "
-              "planned ones, so that the curves of torque and forces in "
-              "curve.csv (for a prescribed force or moment: of the "
-              "displacement) are within Tolerance, relative to the largest "
-              "value of each. For a component along which the machine stands "
-              "still, the reference is a tenth of the largest value of all, "
-              "if that is more. Each accepted step is a row. Steps end where "
-              "a prescribed motion turns back. Steps that do not converge "
-              "are halved in any case.");
+    table.add(
+      "Adaptive",
+      adaptive,
+      Allowed::choice("false | true").or_word_for("auto", "false"),
+      "Let the program choose the steps, at most as large as the "
+      "planned ones, so that the curves of torque and forces in "
+      "curve.csv (for a prescribed force or moment: of the "
+      "displacement) are within Tolerance, relative to the largest "
+      "value of each. For a component along which the machine stands "
+      "still, the reference is a tenth of the largest value of all, "
+      "if that is more. Each accepted step is a row. Steps end where "
+      "a prescribed motion turns back. Steps that do not converge "
+      "are halved in any case. `auto': as Accuracy needs, without it false.");
     table.add("Tolerance",
               tolerance,
-              Allowed::number_between(1e-7, 1, ""),
+              Allowed::number_between(1e-7, 1, "").or_word_for("auto", "1e-3"),
               "Relative accuracy of the torque curve. With Adaptive: of the "
               "states at the ends of the steps, and of the cubics between "
-              "them, both estimated; 0.1 at most is used. With Model = auto: "
-              "largest difference, relative to the largest torque, from the "
-              "curve of the scene's bodies on a converged mesh. Otherwise "
-              "not used.");
+              "them, both estimated; 0.1 at most is used. `auto': a quarter of "
+              "Accuracy, without it 1e-3. Not used by planned steps.");
     declare_path(*this, table);
     declare_iteration(*this, table);
     table.leave_subsection();

@@ -76,7 +76,6 @@ main()
   check_scene("opposite", {opposite});
   check_scene("turned by a minus", {opposite, columns + "1 [deg], 2 [-N mm]"});
   check_scene("opposite, of a foundation", {opposite, "Model=foundation"});
-  check_scene("opposite, of auto", {opposite, "Model=auto"});
   check_scene("backwards", {backwards});
   check_scene("backwards, as the scene",
               {backwards, twist + "Value=-10 * max(t - 1, 0)"});

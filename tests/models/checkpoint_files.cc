@@ -200,7 +200,7 @@ print_found(const std::string              &what,
     if (!run)
       std::cout << "  it is finished" << std::endl;
     else
-      std::cout << "  goes on from step " << run->checkpoint.step << std::endl;
+      std::cout << "  goes on from step " << run->checkpoint->step << std::endl;
   });
 }
 
@@ -253,7 +253,7 @@ test_scenes()
     files.write(checkpoint);
     print_error<InputError>("The state of another build", [&] {
       const auto run = find_interrupted_run(directory, "", {});
-      DebondingProblem(run->scene).run(&run->checkpoint);
+      DebondingProblem(run->scene).run(&*run->checkpoint);
     });
   }
   for (const std::string &slot : slots)

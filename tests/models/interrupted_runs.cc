@@ -80,7 +80,7 @@ run_in_process(const Scene       &scene,
             DebondingProblem(scene).run();
           else if (const auto run =
                      find_interrupted_run(scene.output.directory, "", {}))
-            DebondingProblem(run->scene).run(&run->checkpoint);
+            DebondingProblem(run->scene).run(&*run->checkpoint);
           else
             code = 2;
         }
@@ -217,7 +217,7 @@ check_extension(const std::string &name, const std::string &changes)
   auto *const        console = std::cout.rdbuf(none.rdbuf());
   {
     const auto run = extended_by(further);
-    DebondingProblem(run->scene).run(&run->checkpoint);
+    DebondingProblem(run->scene).run(&*run->checkpoint);
   }
   std::cout.rdbuf(console);
   report("  the same files", same_files(whole, parts));

@@ -1,7 +1,8 @@
 // A directory with results of another scene is only used when this is wanted,
 // and what that scene left is gone then, but nothing that is not ours; none is
-// used that another run is at work in; JSON
-// files keep their order, escape text and know no infinities.
+// used that another run is at work in; the run before goes into the folder of
+// the coarser one; JSON files keep their order, escape text and know no
+// infinities.
 
 #include <debond/output/result_files.h>
 #include <debond/support/input_error.h>
@@ -45,17 +46,23 @@ namespace
   void
   leave_results(const std::string &path)
   {
-    for (const std::string directory : {"rung-1", "rung-old", "rung-2"})
+    for (const std::string directory :
+         {"coarser", "rung-1", "rung-old", "rung-2"})
       std::filesystem::create_directories(path + "/" + directory);
     for (const std::string file : {"summary.json",
                                    "torque.csv",
                                    "reactions.csv",
                                    "auto.csv",
+                                   "curve.csv",
+                                   "errors.csv",
+                                   "checkpoint-1",
                                    "bulk.pvd",
                                    "interface-0012.vtu",
                                    "points-0012.vtu",
                                    "repetition-2.json",
                                    "rung-1/parameters.prm",
+                                   "coarser/parameters.prm",
+                                   "coarser/torque.csv",
                                    "my_picture.png",
                                    "bulk-notes.txt"})
       std::ofstream(path + "/" + file) << "left\n";
@@ -70,6 +77,22 @@ namespace
     std::sort(names.begin(), names.end());
     for (const std::string &name : names)
       std::cout << "  " << name << '\n';
+  }
+
+  /** A folder of this name that holds no results belongs to somebody else. */
+  void
+  test_folder_of_coarser_run()
+  {
+    std::filesystem::create_directory("results/a/coarser");
+    open("results/a", "one scene", true);
+    list_files("results/a");
+
+    open("results/b", "more cells", true);
+    leave_results("results/b");
+    Debond::keep_as_coarser("results/b", "fewer cells");
+    list_files("results/b");
+    list_files("results/b/coarser");
+    open("results/b/coarser", "fewer cells", false);
   }
 
   /** While another has the directory: a lock belongs to an open descriptor, so
@@ -93,7 +116,8 @@ namespace
 int
 main()
 {
-  std::filesystem::remove_all("results/a");
+  for (const std::string path : {"results/a", "results/b"})
+    std::filesystem::remove_all(path);
   open("results/a/", "one scene", true);
   leave_results("results/a");
   open("results/a", "one scene", false);
@@ -103,6 +127,7 @@ main()
   list_files("results/a");
   open("results/a/parameters.prm", "a file is no directory", false);
 
+  test_folder_of_coarser_run();
   test_lock();
 
   Debond::write_json("results/object.json",

@@ -601,6 +601,8 @@ end
         report(f"steps as wide as an interval are told, sideways {sideways} mm", said == (sideways > 0), found.warnings)
     halves = fits.problem_of(debond.Scene(None, entries, text=scene)).done[0].halved(())
     report("steps half as wide are twice as many", [len(ends) for ends in halves] == [2, 50], halves)
+    halves = fits.problem_of(debond.Scene(None, {**entries, "Load steps/Steps": "auto"}, text=scene)).done[0].halved(())
+    report("those of auto, too", [len(ends) for ends in halves] == [2, 2000], [len(ends) for ends in halves])
     again = debond.fit(debond.Scene(None, entries, text=scene))
     report("the same fit once more gives the same digits", (again.values == found.values).all() and (again.lower == found.lower).all(), again.values - found.values)
 

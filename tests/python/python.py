@@ -346,8 +346,8 @@ def check_latin_1():
         command = [text.encode("latin-1") for text in (program, "latin_1.prm", *more, "--set", "Output/Directory=latin_1")]
         done = subprocess.run(command, capture_output=True)
         with open("latin_1/parameters.prm", "rb") as file:
-            check(f"a title in Latin-1, of the {name}", done.returncode == 0 and f"set Title = {title}\n".encode() in file.read())
-    check("the same from Python", f"set Title = {title}\n" in scene.parameters and len(scene.run().rows["angle_deg"]) > 10)
+            check(f"a title in Latin-1, of the {name}", done.returncode == 0 and f"= {title}\n".encode() in file.read())
+    check("the same from Python", f"= {title}\n" in scene.parameters and len(scene.run().rows["angle_deg"]) > 10)
     with open("latin_1_fit.prm", "w", encoding="latin-1") as file:
         file.write("include latin_1.prm\nset Task = calibrate\nsubsection Interface\n set Friction coefficient broken = <<0.3 in 0.1..0.8>>\nend\n"
                    "subsection Output\n set Reference curve = latin_1/torque.csv\n set Directory = latin_1_fit\nend\n")

@@ -165,7 +165,6 @@ def refused():
         "laws": refusal(lambda: coin(law=(lambda s: 1 / (1 + s / (0.04 + 0.01 * rank)), 1)).run(comm=comm)),
         "an entry of one": refusal(lambda: coin({} if first else {"Bone/Cells": "four"}).run(comm=comm)),
         "solver": refusal(lambda: coin(DIRECT).run(comm=comm)),
-        "Model = auto": refusal(lambda: coin({"Model": "auto"}).write("auto", comm=comm)),
         "what is driven": refusal(lambda: debond.Simulation(coin(), drive={"Rotation z": rank}, comm=comm)),
         "no number": refusal(lambda: debond.Simulation(coin(), drive={"Rotation z": 0 if first else "x"}, comm=comm)),
         "no scene": refusal(lambda: debond.Simulation(coin() if first else "coin.prm", comm=comm)),

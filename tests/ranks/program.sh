@@ -48,10 +48,13 @@ cut -d, -f1-6 out/torque.csv > rows-2
 cut -d, -f1-6 alone/torque.csv > rows-1
 numdiff -q -r 1e-7 -a 1e-9 -s ,'\n' rows-1 rows-2 && echo "the rows of one process"
 
+echo "with an accuracy"
+ranks 2 $scene --set "Accuracy=20 %" --set Output/Directory=accuracy || cat said
+grep -c '"error_estimate": 0.05' accuracy/summary.json
+
 echo "refused"
 ranks 2 $scene --set "Bone/Solver=direct" --set Output/Directory=no || said "that solver is for one process, and here are 2"
 ranks 5 $scene --set "Bone/Cells=2,2,1" --set Output/Directory=few || said "5 processes cannot share 4 cells"
-ranks 2 $scene --set "Model=auto" --set Output/Directory=no || said "auto runs in one process"
 ranks 2 $scene --set "Bone/Cells=four" --set Output/Directory=no || said "--set: Bone / Cells = 'four'"
 ls no 2> /dev/null
 

@@ -137,7 +137,6 @@ main()
 
   show({"Load steps/Tolerance=1e-2"});
   show({"Load steps/Tolerance=1e-2", "Load steps/Adaptive=true"});
-  show({"Model=auto"});
   show({"Load steps/Largest slip step=1e-3"});
   show({"Closed form/Shear modulus=50", "Closed form/Pressure=2"});
   show({"Closed form/Shear modulus=50", "Model=crack"});

@@ -75,6 +75,10 @@ namespace Debond
     bool
     has(const SceneEntry &entry) const;
 
+    /** Whether a @p text stands for the value of an entry, if by a word. */
+    bool
+    means(const SceneEntry &entry, const std::string &text) const;
+
     /** All entries with their values. */
     std::vector<SceneEntry>
     entries() const;

@@ -1,6 +1,7 @@
 #ifndef debond_models_debonding_problem_h
 #define debond_models_debonding_problem_h
 
+#include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
@@ -13,6 +14,11 @@ namespace Debond
 {
   struct BodyPair;
   struct Checkpoint;
+
+  /** The directory of a run, which @p resumes or begins anew. Throws InputError
+   *  if it holds what must not be lost. Collective. */
+  ResultDirectory
+  open_directory(const Scene &scene, bool resumes);
 
   /**
    * Runs a Simulation as the program does: into a directory, with lines on the

@@ -15,7 +15,8 @@ namespace Debond
   struct ResumedRun
   {
     Scene      scene; ///< writes into the directory where the checkpoint is
-    Checkpoint checkpoint;
+    /** Without a state: the coarser run is not finished. */
+    std::optional<Checkpoint> checkpoint;
     /** What a user has to know about the checkpoint. */
     std::vector<std::string> remarks;
     /** Keeps others out until the run has opened it. */

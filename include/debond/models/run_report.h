@@ -48,6 +48,10 @@ namespace Debond
     Console console;
 
   private:
+    void
+    write_errors(const std::vector<TorqueRow> &fine,
+                 nlohmann::ordered_json       &summary);
+
     const Scene                             &scene;
     const ResultDirectory                   &directory;
     const std::map<std::string, std::string> files_of_reference;

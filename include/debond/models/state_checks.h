@@ -6,6 +6,7 @@
 #include <debond/system/chuck_path.h>
 #include <debond/system/energy_balance.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <set>
@@ -51,9 +52,15 @@ namespace Debond
         double                  reaction_defect);
 
     /** Warns, at the end of the run, in its last state, of linear bodies with
-     *  large strains. */
+     *  large strains. Asks also where tractions are small @p in_any_case. */
     void
-    judge_strains(const CoupledSystem &system);
+    judge_strains(const CoupledSystem &system, bool in_any_case);
+    /** Relative change of displacements that large strains would make. */
+    double
+    change_at_large_strains() const
+    {
+      return std::max(change_at_strains[0], change_at_strains[1]);
+    }
 
     const EnergyBalance &
     energy() const

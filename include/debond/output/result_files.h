@@ -18,6 +18,13 @@ namespace Debond
   void
   remove_results(const std::string &directory);
 
+  /** Moves the curve, summary and parameters of a run into the folder
+   *  `coarser` of its directory, for the run that follows. @p
+   *  completed_parameters: of what would have given the same. */
+  void
+  keep_as_coarser(const std::string &directory,
+                  const std::string &completed_parameters);
+
   /** The directory that a run writes to. No other process can open it while
    * this object or a copy of it lives; that process gets an InputError. */
   class ResultDirectory

@@ -14,16 +14,14 @@ namespace Debond
 {
   class EntryTable;
 
-  /** What is solved: two bodies of finite elements, one of the closed forms of
-   *  closed_forms.h, or the cheapest of these models that is accurate enough.
-   */
+  /** What is solved: two bodies of finite elements, or one of the closed forms
+   * of closed_forms.h. */
   enum class ModelKind
   {
     finite_elements,
     foundation,
     prescribed_angles,
-    crack,
-    automatic ///< `auto`
+    crack
   };
 
   /** The subsection `Closed form` of a scene: what the models foundation,
@@ -102,11 +100,15 @@ namespace Debond
    *  on bone, whose chuck does not move. */
   struct Scene : ModelParameters
   {
-    std::string          title;
-    ModelKind            model = ModelKind::finite_elements;
+    std::string title;
+    ModelKind   model = ModelKind::finite_elements;
+    /** `Accuracy`, relative error that is asked for; 0: cells and steps are
+     *  those of the scene. */
+    double               accuracy = 0.;
     ClosedFormParameters closed_form;
-    /** The subsection `Auto`, for `Model = auto`. */
-    unsigned int     largest_number_of_unknowns = 250000;
+    /** How far cells may be refined for the accuracy. */
+    unsigned int     most_unknowns = 250000;
+    double           most_minutes  = 30.;
     StudyParameters  study;
     OutputParameters output;
 
@@ -115,9 +117,21 @@ namespace Debond
     std::vector<SceneEntry> entries;
     std::string             name;
     /** Those of them whose value is not the default. Empty for scenes that a
-     *  study or `Model = auto` has made of another one, which need not read all
+     *  study or an accuracy has made of another one, which need not read all
      *  entries. */
     std::vector<SceneEntry> changed_entries;
+    /** Full names of those whose values were chosen for the accuracy, see
+     *  numerics.h; and notes them in completed_parameters, too. */
+    std::vector<std::string> chosen;
+    /** What is to be chosen: entries that the scene leaves at `auto`. */
+    std::vector<SceneEntry>
+    chosen_entries() const;
+    /** Whether the interface, and not the bodies, says what the pressure is: it
+     *  has no peak at the rim then. */
+    bool
+    has_soft_interface() const;
+    void
+    note_choices(const std::vector<std::string> &entries);
 
     /** An EntryError with the value of the entry and the place where it is set,
      *  or the name of the scene if it is not; other errors as they are. */
@@ -151,6 +165,11 @@ namespace Debond
 
     void
     declare(EntryTable &table);
+    /** Of that the entry `Accuracy`, and what bounds the cells for it. */
+    void
+    declare_accuracy(EntryTable &table);
+    void
+    declare_limits(EntryTable &table);
 
     /** Makes what entries stand for: the friction law, the modulus of the bone,
      *  and where the rim is. After entries have been set. Throws InputError. */

@@ -1,0 +1,246 @@
+#include <debond/campaigns/accurate_run.h>
+#include <debond/models/debonding_problem.h>
+#include <debond/models/resumed_run.h>
+#include <debond/output/error_estimate.h>
+#include <debond/output/result_files.h>
+#include <debond/scene/finer_scenes.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
+#include <debond/system/memory_estimate.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <optional>
+
+// Runs of one scene with more and more cells, until its error is small enough.
+namespace Debond
+{
+  namespace
+  {
+    nlohmann::ordered_json
+    summary_in(const std::string &directory)
+    {
+      return read_json(directory + "/summary.json");
+    }
+
+
+
+    bool
+    is_finished(const Scene &scene)
+    {
+      const std::string &directory = scene.output.directory;
+      return parameters_in(directory) == scene.completed_parameters &&
+             summary_in(directory)["converged"] == true;
+    }
+
+
+
+    void
+    say(const Scene &scene, const std::string &line)
+    {
+      if (!scene.output.quiet)
+        std::cout << line << std::endl;
+    }
+
+
+
+    /** The coarser run, whose failure makes the error unknown, and no more.
+     *  With @p goes_on it may be finished, or have a checkpoint. */
+    void
+    run_coarser(const Scene &scene, const Scene &coarser, const bool goes_on)
+    {
+      if (goes_on && is_finished(coarser))
+        return;
+      say(scene,
+          "For the error first with " + cells_in_words(coarser) + " cells");
+      try
+        {
+          const auto checkpoint =
+            goes_on ? find_checkpoint(coarser) : std::nullopt;
+          DebondingProblem(coarser).run(checkpoint ? &*checkpoint : nullptr);
+        }
+      catch (const RunError &)
+        {} // its summary says why
+      catch (const Interrupted &interrupted)
+        {
+          throw Interrupted(interrupted.signal,
+                            "interrupted in the coarser run, which tells the "
+                            "error; debond --resume '" +
+                              scene.output.directory + "' goes on from there");
+        }
+      Ranks::meet();
+    }
+
+
+
+    double
+    n_unknowns(const Scene &scene)
+    {
+      double sum = 0.;
+      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+        if (!body->is_rigid())
+          sum += n_unknowns_of(*body);
+      return sum;
+    }
+
+
+
+    /** Empty: a scene with so many unknowns and seconds may be run. */
+    std::string
+    why_not_finer(const Scene &finer, const double n, const double seconds)
+    {
+      if (n > finer.most_unknowns)
+        return "are beyond Expert / Largest number of unknowns";
+      if (seconds > 60. * finer.most_minutes)
+        return "are beyond Expert / Largest minutes";
+      try
+        {
+          require_memory(finer, finer.output.fields_every > 0, false);
+        }
+      catch (const NotEnoughMemory &)
+        {
+          return "need more memory than there is";
+        }
+      return "";
+    }
+
+
+
+    /** The scene with more cells, if these help and may be; @p text says what
+     * is tried, or why it is not. @p summary: of the run with the scene. */
+    std::optional<Scene>
+    next_scene(const Scene                  &scene,
+               const nlohmann::ordered_json &summary,
+               std::string                  &text)
+    {
+      const auto percent = [&summary](const std::string &name) {
+        return to_text(100. * number_in(summary, name), 2) + " %";
+      };
+      text = "the estimated error, " + percent("error_estimate") +
+             ", is above Accuracy, " + to_text(100. * scene.accuracy, 2) + " %";
+      const auto finer = finer_scene(scene);
+      if (number_in(summary, "error_of_steps") +
+            number_in(summary, "error_of_bodies") >=
+          scene.accuracy)
+        {
+          text += ": steps make " + percent("error_of_steps") +
+                  ", and linear bodies " + percent("error_of_bodies");
+          return {};
+        }
+      if (!finer)
+        {
+          text += ": the scene sets its cells itself";
+          return {};
+        }
+      // condensation takes the square of the unknowns, most others less
+      const double n = n_unknowns(*finer), before = n_unknowns(scene),
+                   needed = number_in(summary, "wall_seconds") *
+                            (n > 0. ? std::pow(n / before, 1.5) : 3.);
+      const std::string more = cells_in_words(*finer) + " cells, " +
+                               to_text(n, 6) + " unknowns, some " +
+                               to_text(needed, 2) + " s",
+                        why_not = why_not_finer(*finer, n, needed);
+      text += why_not.empty() ? ": once more with " + more :
+                                "; " + more + ", " + why_not;
+      return why_not.empty() ? finer : std::nullopt;
+    }
+
+
+
+    void
+    add_warning(const ResultDirectory &directory,
+                nlohmann::ordered_json summary,
+                const std::string     &text)
+    {
+      std::cout << "warning: " << text << std::endl;
+      summary["warnings"].push_back(text);
+      write_json(directory.file("summary.json"), summary);
+    }
+  } // namespace
+
+
+
+  void
+  run_to_accuracy(Scene                     scene,
+                  std::shared_ptr<BodyPair> bodies,
+                  const Checkpoint         *checkpoint)
+  {
+    if (scene.accuracy == 0.)
+      return DebondingProblem(scene, std::move(bodies)).run(checkpoint);
+    const bool goes_on = checkpoint != nullptr;
+    if (goes_on && checkpoint->state.empty())
+      checkpoint = nullptr;
+    const ResultDirectory directory = open_directory(scene, goes_on);
+    for (bool has_coarser = false;; checkpoint = nullptr)
+      {
+        const auto coarser = coarser_scene(scene);
+        if (coarser && !has_coarser)
+          run_coarser(scene, *coarser, goes_on);
+        if (ErrorEstimate::of_linear_bodies(
+              summary_in(directory.file("coarser"))) > 0.3 * scene.accuracy)
+          if (const auto richer = with_large_strains(scene))
+            {
+              say(scene, "Strains are too large for linear bodies");
+              scene       = *richer;
+              bodies      = nullptr;
+              has_coarser = false;
+              directory.write_parameters(scene.completed_parameters);
+              continue;
+            }
+        DebondingProblem(scene, std::move(bodies)).run(checkpoint);
+        Ranks::meet(); // the first one has written
+        const auto   summary = summary_in(directory.path());
+        const double error   = number_in(summary, "error_estimate");
+        if (!coarser)
+          add_warning(directory,
+                      summary,
+                      "the error is not known, as meshes of files cannot be "
+                      "made coarser");
+        if (!(error > scene.accuracy))
+          return;
+        std::string text;
+        const auto  finer = next_scene(scene, summary, text);
+        if (!finer)
+          return add_warning(directory, summary, text);
+        say(scene, text);
+        // the same as what would be the coarser run of the finer one
+        const auto next = coarser_scene(*finer);
+        has_coarser     = !scene.load_steps.rows_are_planned() &&
+                      cells_in_words(*next) == cells_in_words(scene);
+        if (has_coarser)
+          keep_as_coarser(directory.path(), next->completed_parameters);
+        directory.write_parameters(finer->completed_parameters);
+        scene  = *finer;
+        bodies = nullptr;
+      }
+  }
+
+
+
+  void
+  print_choices(const Scene &scene, std::ostream &out)
+  {
+    if (scene.accuracy == 0.)
+      return;
+    const auto coarser = coarser_scene(scene);
+    Text       text;
+    text << "For an accuracy of " << to_text(100. * scene.accuracy, 3)
+         << " %: " << cells_in_words(scene) << " cells, and for the error "
+         << (coarser ? cells_in_words(*coarser) : "none")
+         << (finer_scene(scene) ? "; with more of them if it is larger\n" :
+                                  ", as the scene sets its cells\n");
+    std::string list;
+    for (const SceneEntry &entry : scene.completed_entries())
+      if (std::count(scene.chosen.begin(),
+                     scene.chosen.end(),
+                     entry.full_name()) > 0)
+        list +=
+          (list.empty() ? "" : "; ") + entry.full_name() + " = " + entry.value;
+    if (!list.empty())
+      text << "chosen for it: " << list << '\n';
+    out << std::string(text);
+  }
+} // namespace Debond

@@ -1,0 +1,280 @@
+#include <debond/input/entry_table.h>
+#include <debond/scene/finer_scenes.h>
+#include <debond/support/input_error.h>
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <map>
+
+// A scene with other cells, and whether it is the same scene still.
+namespace Debond
+{
+  unsigned int
+  more_cells(const unsigned int n)
+  {
+    return (3 * n + 1) / 2;
+  }
+
+  unsigned int
+  fewer_cells(const unsigned int n)
+  {
+    return std::max(1U, (4 * n + 3) / 6);
+  }
+
+
+
+  namespace
+  {
+    using Change = unsigned int (*)(unsigned int n);
+
+    /** Cells of a body as its entry says them, each number changed. */
+    std::string
+    cells_of(const BodyParameters &body, const Change change)
+    {
+      std::vector<unsigned int> n(body.cells.begin(), body.cells.end());
+      if (body.is_fitted())
+        {
+          n.assign(body.fitted_cells.begin(), body.fitted_cells.end());
+          if (n[2] == 0) // of an implant
+            n.pop_back();
+          n.push_back(body.cells[2]);
+        }
+      const bool         is_round = body.is_fitted() || body.mesh;
+      const unsigned int unit     = is_round && n[0] % 4 == 0 ? 4 : 1,
+                         under    = body.cells_under_implant,
+                         fewest   = body.is_fitted() ? 4 :
+                                    is_round         ? 8 :
+                                                       2;
+      for (unsigned int k = 0; k < n.size(); ++k)
+        if (under > 0 && k < 2) // as many on both sides
+          n[k] = change(under) + 2 * change((n[k] - under) / 2);
+        else if (k == 0 || (k == 1 && !is_round))
+          n[k] = std::max(fewest, unit * change(n[k] / unit));
+        else
+          n[k] = change(n[k]);
+      return (body.is_fitted() ? "fitted " : "") + entry_text(n);
+    }
+
+
+
+    using Changes = std::map<std::string, std::string>;
+
+    Changes
+    changed_cells(const Scene &scene, const Change change)
+    {
+      Changes changes;
+      for (const auto &[section, body] : {std::pair("Bone", &scene.bone),
+                                          std::pair("Implant", &scene.implant)})
+        if (body->shape != BodyShape::file)
+          changes[section + std::string(" / Cells")] = cells_of(*body, change);
+      if (const unsigned int under = scene.bone.cells_under_implant; under > 0)
+        changes["Bone / Cells under implant"] = std::to_string(change(under));
+      return changes;
+    }
+
+
+
+    Scene
+    changed_scene(const Scene &scene, const Changes &changes)
+    {
+      std::vector<SceneEntry> entries = scene.completed_entries();
+      for (SceneEntry &entry : entries)
+        if (const auto change = changes.find(entry.full_name());
+            change != changes.end())
+          entry.value = change->second;
+      Scene result = Scene::from_entries(entries, scene.name);
+      result.changed_entries.clear(); // need not all be read
+      return result;
+    }
+
+
+
+    /** With other choices, and else as it is. */
+    Scene
+    with_choices(const Scene &scene, const Changes &changes)
+    {
+      Scene result           = changed_scene(scene, changes);
+      result.entries         = scene.entries;
+      result.changed_entries = scene.changed_entries;
+      result.output          = scene.output;
+      result.note_choices(scene.chosen);
+      return result;
+    }
+
+
+
+    bool
+    is_among(const std::vector<std::string> &names, const SceneEntry &entry)
+    {
+      return std::count(names.begin(), names.end(), entry.full_name()) > 0;
+    }
+  } // namespace
+
+
+
+  // Where each element has a bond of its own, other cells would have another
+  // bond.
+  std::optional<Scene>
+  coarser_scene(const Scene &scene)
+  {
+    Changes changes = changed_cells(scene, fewer_cells);
+
+    const BondingParameters &bonding = scene.interface.bonding;
+    if (bonding.pattern == BondingPatternKind::file ||
+        (bonding.pattern == BondingPatternKind::random &&
+         bonding.correlation_length == 0.))
+      changes.erase("Implant / Cells");
+    if (changes.empty())
+      return {};
+    if (scene.load_steps.rows_are_planned())
+      {
+        std::vector<unsigned int> steps = scene.load_steps.steps;
+        for (unsigned int &n : steps)
+          n = (n + 1) / 2;
+        changes["Load steps / Steps"] = entry_text(steps);
+      }
+    for (const auto &[entry, value] :
+         Changes{{"Directory", scene.output.directory + "/coarser"},
+                 {"Fields every", "none"},
+                 {"Report", "false"},
+                 {"Console", "quiet"},
+                 {"Reference curve", "none"},
+                 {"Reference columns", "auto"},
+                 {"Reference profiles", "none"},
+                 {"Curve angles", "none"},
+                 {"Profile angles", "none"},
+                 {"Friction law curve", "false"}})
+      changes["Output / " + entry] = value;
+    Scene coarser                          = changed_scene(scene, changes);
+    coarser.output.extendable              = false;
+    coarser.output.overwrite_other_results = true;
+    return coarser;
+  }
+
+
+
+  std::optional<Scene>
+  finer_scene(const Scene &scene)
+  {
+    Changes changes = changed_cells(scene, more_cells);
+    for (auto change = changes.begin(); change != changes.end();)
+      change =
+        std::count(scene.chosen.begin(), scene.chosen.end(), change->first) >
+            0 ?
+          std::next(change) :
+          changes.erase(change);
+    if (changes.empty())
+      return {};
+    return with_choices(scene, changes);
+  }
+
+
+
+  std::optional<Scene>
+  with_large_strains(const Scene &scene)
+  {
+    Changes changes;
+    for (const auto &[section, body] :
+         {std::pair("Bone", &scene.bone), std::pair("Implant", &scene.implant)})
+      if (const SceneEntry entry{{section}, "Material", "", ""};
+          is_among(scene.chosen, entry) && body->material == Material::linear)
+        changes[entry.full_name()] = "neo-hookean";
+    return changes.empty() ? std::nullopt :
+                             std::optional(with_choices(scene, changes));
+  }
+
+
+
+  std::string
+  cells_in_words(const Scene &scene)
+  {
+    const auto same = [](const unsigned int n) { return n; };
+    return cells_of(scene.bone, same) + " and " + cells_of(scene.implant, same);
+  }
+
+
+
+  std::vector<SceneEntry>
+  open_choices(const std::string &parameters)
+  {
+    const std::vector<std::string> chosen = choices_in(parameters);
+    std::vector<SceneEntry> entries = read_scene_text(parameters, "parameters");
+    for (SceneEntry &entry : entries)
+      if (is_among(chosen, entry))
+        entry.value = entry.name == "Cells under implant" ? "none" : "auto";
+    return entries;
+  }
+
+
+
+  Scene
+  with_choices_of(const Scene &scene, const std::string &parameters)
+  {
+    Changes changes;
+    for (const SceneEntry &entry : read_scene_text(parameters, "parameters"))
+      if (is_among(scene.chosen, entry) && entry.subsections[0] != "Load steps")
+        changes[entry.full_name()] = entry.value;
+    return changes.empty() ? scene : with_choices(scene, changes);
+  }
+
+
+
+  namespace
+  {
+    const std::string choices_begin = "# chosen by Accuracy: ";
+  }
+
+
+
+  void
+  Scene::note_choices(const std::vector<std::string> &entries)
+  {
+    chosen = entries;
+    if (!chosen.empty())
+      completed_parameters +=
+        choices_begin + boost::algorithm::join(chosen, "; ") + "\n";
+  }
+
+
+
+  std::vector<std::string>
+  choices_in(const std::string &parameters)
+  {
+    const auto begin = parameters.rfind(choices_begin);
+    if (begin == std::string::npos)
+      return {};
+    const auto names = begin + choices_begin.size();
+    return split(parameters.substr(names, parameters.find('\n', names) - names),
+                 ";");
+  }
+
+
+
+  bool
+  is_same_scene(const std::string &parameters, const std::string &earlier)
+  {
+    if (parameters == earlier)
+      return true;
+    const std::vector<std::string> chosen   = choices_in(parameters);
+    const auto                     lines_of = [&](const std::string &text) {
+      std::vector<std::string> lines;
+      for (const SceneEntry &entry : read_scene_text(text, "parameters"))
+        if (!is_among(chosen, entry))
+          lines.push_back(entry.full_name() + " = " + entry.value);
+      for (const std::string &line : split(text, "\n"))
+        if (line.rfind("# ", 0) == 0 &&
+            !(chosen.empty() && line.rfind(choices_begin, 0) == 0))
+          lines.push_back(line); // of files
+      return lines;
+    };
+    try
+      {
+        return lines_of(parameters) == lines_of(earlier);
+      }
+    catch (const InputError &) // it has been changed
+      {
+        return false;
+      }
+  }
+} // namespace Debond

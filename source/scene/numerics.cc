@@ -1,0 +1,381 @@
+#include <debond/input/entry_table.h>
+#include <debond/input/expression_parser.h>
+#include <debond/scene/finer_scenes.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
+#include <debond/support/ranks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+// Cells, elements and steps of a scene that leaves them to the program.
+namespace Debond
+{
+  namespace
+  {
+    /** Entries that are chosen, and whether the scene sets them. */
+    struct Choice
+    {
+      const Scene            &scene;
+      unsigned int            level; ///< of what is made of cells
+      std::vector<SceneEntry> entries;
+
+      bool
+      is_open(const std::string &section, const std::string &name) const
+      {
+        const auto is_last = [&](const SceneEntry &entry) {
+          return entry.full_name() == section + " / " + name;
+        };
+        const auto set =
+          std::find_if(scene.entries.rbegin(), scene.entries.rend(), is_last);
+        return set == scene.entries.rend() || set->value == "auto";
+      }
+
+      void
+      choose(const std::string &section,
+             const std::string &name,
+             const std::string &value)
+      {
+        if (is_open(section, name))
+          entries.push_back({{section}, name, value, ""});
+      }
+
+      /** Cells of this level, of those of level 0. */
+      std::string
+      cells(std::vector<unsigned int> numbers) const
+      {
+        for (unsigned int &n : numbers)
+          for (unsigned int k = 0; k < level; ++k)
+            n = more_cells(n);
+        return entry_text(numbers);
+      }
+      /** The same of cells around an axis, which come in fours. */
+      std::string
+      cells_around(const unsigned int               fours,
+                   const std::vector<unsigned int> &rest)
+      {
+        const auto n = static_cast<unsigned int>(*read_number(cells({fours})));
+        return std::to_string(4 * n) + ", " + cells(rest);
+      }
+    };
+
+
+
+    /** Whether it stays where cells that follow its rim are: within a tenth of
+     *  its radius from the middle of the bone. */
+    bool
+    stays_in_place(const Scene &scene)
+    {
+      const double R = scene.implant.characteristic_radius();
+      for (unsigned int k = ChuckComponent::translation_x;
+           k < ChuckComponent::translation_z;
+           ++k)
+        {
+          const auto &component = scene.chuck.component[k];
+          const auto  values    = scene.sampled_values(k);
+          if (component.loaded ||
+              std::any_of(values.begin(), values.end(), [R](const double u) {
+                return std::abs(u) > 0.1 * R;
+              }))
+            return false;
+        }
+      return true;
+    }
+
+
+
+    bool
+    is_fitted_possible(const Choice &choice)
+    {
+      const Scene &scene             = choice.scene;
+      const auto   is_spline_or_open = [&](const char *const     section,
+                                         const BodyParameters &body) {
+        return body.element == ElementKind::spline ||
+               choice.is_open(section, "Element");
+      };
+      return scene.bone.shape == BodyShape::block &&
+             !scene.has_soft_interface() &&
+             (scene.implant.shape == BodyShape::coin ||
+              scene.implant.shape == BodyShape::cap) &&
+             is_spline_or_open("Bone", scene.bone) &&
+             is_spline_or_open("Implant", scene.implant) &&
+             choice.is_open("Bone", "Cells") &&
+             choice.is_open("Bone", "Layer grading") &&
+             scene.bone.lateral_grading == 1. &&
+             scene.bone.cells_under_implant == 0 &&
+             scene.bone.contact_surface == SurfaceKind::nurbs &&
+             (scene.bone.bulk_solver == BulkSolver::automatic ||
+              scene.bone.bulk_solver == BulkSolver::direct) &&
+             scene.implant.width(0) <
+               0.998 * std::min(scene.bone.size[0], scene.bone.size[1]) &&
+             Ranks::number() == 1 && stays_in_place(scene);
+    }
+
+
+
+    /** Cells of equal width, three to a radius of the implant. */
+    std::vector<unsigned int>
+    lattice_below(const Scene &scene)
+    {
+      const double width = scene.implant.characteristic_radius() / 3.;
+      std::vector<unsigned int> n;
+      for (const unsigned int d : {0, 1})
+        n.push_back(std::ceil(scene.bone.size[d] / width - 1e-9));
+      n.push_back(4);
+      return n;
+    }
+
+
+
+    /** Cells that heed the edges of a block: in the order below it, beside it
+     *  on one side, and layers. */
+    void
+    choose_around_block(Choice &choice)
+    {
+      const auto n = [&](const unsigned int fewest) {
+        return static_cast<unsigned int>(*read_number(choice.cells({fewest})));
+      };
+      const unsigned int across = n(6) + 2 * n(4);
+      choice.choose("Bone",
+                    "Cells",
+                    entry_text(
+                      std::vector<unsigned int>{across, across, n(4)}));
+      choice.entries.push_back(
+        {{"Bone"}, "Cells under implant", std::to_string(n(6)), ""});
+      choice.choose("Bone", "Layer grading", "2");
+    }
+
+
+
+    /** A flat face on a block of bone. Of a body whose cells are set nothing
+     *  else of them is chosen. */
+    void
+    choose_on_block(Choice &choice)
+    {
+      const Scene          &scene   = choice.scene;
+      const BodyParameters &implant = scene.implant;
+      const bool            is_open = choice.is_open("Bone", "Cells"),
+                 is_fitted          = is_open ? is_fitted_possible(choice) :
+                                                scene.bone.is_fitted();
+      if (is_open && is_fitted)
+        choice.choose("Bone",
+                      "Cells",
+                      "fitted " + choice.cells_around(2, {3, 5, 5}));
+      else if (is_open && implant.shape == BodyShape::block &&
+               stays_in_place(scene))
+        choose_around_block(choice);
+      else if (is_open)
+        {
+          choice.choose("Bone", "Cells", choice.cells(lattice_below(scene)));
+          choice.choose("Bone", "Layer grading", "2");
+        }
+      const bool is_disk = is_fitted && implant.shape == BodyShape::coin &&
+                           implant.contact_surface == SurfaceKind::nurbs;
+      choice.choose("Implant",
+                    "Cells",
+                    is_disk ? "fitted " + choice.cells_around(2, {3, 3}) :
+                    implant.shape == BodyShape::ring ?
+                              choice.cells_around(3, {2, 2}) :
+                    implant.shape == BodyShape::block ? choice.cells({6, 3}) :
+                                                        choice.cells({3, 3}));
+      choice.choose("Bone", "Element", "spline");
+      choice.choose("Implant",
+                    "Element",
+                    implant.shape == BodyShape::ring ? "quadratic" : "spline");
+    }
+
+
+
+    /** Cells about an axis, of quadratic elements, as wide as half the radius
+     *  along it; six to a pitch. */
+    void
+    choose_about_axis(Choice &choice)
+    {
+      const BodyParameters &implant = choice.scene.implant,
+                           &bone    = choice.scene.bone;
+      const bool is_screw           = implant.shape == BodyShape::screw,
+                 is_cup             = implant.shape == BodyShape::cup;
+      const auto along              = [&](const double height) {
+        return static_cast<unsigned int>(
+          is_cup   ? 2. :
+                       is_screw ? std::ceil(6. * height / implant.pitch) :
+                                  std::ceil(std::min(2. * height / implant.radius, 8.)));
+      };
+      const unsigned int around = is_screw ? 4 : 3;
+      const double       in_bone =
+        bone.sleeve_height > 0. ? bone.sleeve_height : implant.height;
+      choice.choose("Bone",
+                    "Cells",
+                    choice.cells_around(around,
+                                        {is_screw ? 2U : 3U, along(in_bone)}));
+      choice.choose("Implant",
+                    "Cells",
+                    choice.cells_around(around, {1, along(implant.height)}));
+      for (const std::string section : {"Bone", "Implant"})
+        choice.choose(section, "Element", "quadratic");
+    }
+
+
+
+    /** Whether the implant is only pressed in a phase, which takes one step. */
+    bool
+    is_press(const Scene &scene, const unsigned int phase)
+    {
+      const double begin = scene.load_steps.times[phase],
+                   end   = scene.load_steps.times[phase + 1];
+      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+        {
+          const auto value    = scene.value_over_time(k);
+          const bool is_axial = k == ChuckComponent::translation_z;
+          double     before   = value(begin);
+          for (unsigned int i = 1; i <= 16; ++i)
+            {
+              const double now = value(begin + i / 16. * (end - begin));
+              if (is_axial ? now > before : now != before)
+                return false;
+              before = now;
+            }
+        }
+      return !scene.implant.geometry().is_in_bore();
+    }
+
+
+
+    /** Whether the interference stays what it is at first. */
+    bool
+    is_constant_fit(const Scene &scene)
+    {
+      const auto value =
+        read_time_function(scene.interface.interference,
+                           scene.implant.characteristic_radius());
+      const auto times = scene.load_steps.sample_times();
+      return std::all_of(times.begin(), times.end(), [&](const double time) {
+        return value(time) == value(times[0]);
+      });
+    }
+
+
+
+    // They are planned along a path, with a method whose error is not
+    // estimated, and where the interference changes.
+    void
+    choose_steps(Choice &choice)
+    {
+      const Scene                  &scene   = choice.scene;
+      const LoadSteppingParameters &steps   = scene.load_steps;
+      const std::string             section = "Load steps";
+      std::vector<unsigned int>     n;
+      const bool                    is_planned = steps.follow_path ||
+                              scene.interface.explicit_friction ||
+                              !is_constant_fit(scene);
+      for (unsigned int phase = 0; phase + 1 < steps.times.size(); ++phase)
+        n.push_back(is_press(scene, phase) ? 1 : is_planned ? 100 : 10);
+      choice.choose(section, "Steps", entry_text(n));
+      if (is_planned)
+        return;
+      choice.choose(section, "Adaptive", "true");
+      choice.choose(section,
+                    "Tolerance",
+                    to_text(std::max(0.25 * scene.accuracy, 1e-7), 6));
+    }
+  } // namespace
+
+
+
+  bool
+  Scene::has_soft_interface() const
+  {
+    return std::max(interface.normal_penalty,
+                    interface.tangential_stiffness()) *
+             implant.characteristic_radius() <
+           0.7 * bone.softest_modulus();
+  }
+
+
+
+  // What is wrong in the scene is found by its checks, which say where.
+  std::vector<SceneEntry>
+  Scene::chosen_entries() const
+  {
+    if (accuracy == 0. || model != ModelKind::finite_elements)
+      return {};
+    Scene scene = *this; // functions of time are sampled in its phases
+    scene.load_steps.steps.resize(load_steps.times.size() - 1, 10);
+    Choice choice{scene, 0, {}};
+    for (const std::string section : {"Bone", "Implant"})
+      choice.choose(section, "Material", "linear");
+    try
+      {
+        if (bone.shape == BodyShape::block && implant.shape != BodyShape::file)
+          choose_on_block(choice);
+        else if (bone.shape != BodyShape::block &&
+                 bone.shape != BodyShape::file)
+          choose_about_axis(choice);
+        choose_steps(choice);
+      }
+    catch (const InputError &)
+      {}
+    return choice.entries;
+  }
+
+
+
+  void
+  Scene::declare_limits(EntryTable &table)
+  {
+    table.enter_subsection("Expert");
+    table.add(
+      "Largest number of unknowns",
+      most_unknowns,
+      Allowed::whole_number(1, 100000000),
+      "Largest number of unknowns of both bodies, up to which cells are made "
+      "smaller for Accuracy. Memory grows with it: 1 GB for 105 000, some 3 "
+      "GB for 250 000.");
+    table.add("Largest minutes",
+              most_minutes,
+              Allowed::number_above(0, "min"),
+              "Longest time [min] that a run may be expected to take with "
+              "smaller cells for Accuracy.");
+    table.leave_subsection();
+  }
+
+
+
+  void
+  Scene::declare_accuracy(EntryTable &table)
+  {
+    // "0.01" or "1 %"; nothing of other texts
+    const auto read = [](const std::string &text) -> std::optional<double> {
+      const bool is_percent = !text.empty() && text.back() == '%';
+      const auto number =
+        read_number(is_percent ? text.substr(0, text.size() - 1) : text);
+      if (!number || !(*number > 0.) || *number >= (is_percent ? 100. : 1.))
+        return {};
+      return is_percent ? *number / 100. : *number;
+    };
+    AllowedValues allowed =
+      Allowed::text("a share below 1, as 0.01, or a percentage, as 1 %", false);
+    allowed.test = [read](const std::string &text) {
+      return text == "none" || read(text);
+    };
+    allowed.hint = [](const std::string &text) {
+      const auto number = read_number(text);
+      return number && *number >= 1. ? text + " % has a %" : "";
+    };
+    allowed.description = "none, or " + allowed.description;
+    table.add(
+      "Accuracy",
+      accuracy > 0. ? exact_text(accuracy) : "none",
+      [this, read](const std::string &text) {
+        accuracy = read(text).value_or(0.);
+      },
+      allowed,
+      "Largest error, relative to the largest value, of curve, peak and "
+      "stiffness: a share, 0.01, or a percentage, 1 %. Of cells, elements, "
+      "materials and steps the program chooses what the scene leaves at "
+      "`auto', and estimates the error by a second, coarser run. `none': "
+      "`auto' means the mesh and the steps of the paper, and errors are not "
+      "estimated.");
+  }
+} // namespace Debond

@@ -271,14 +271,16 @@ namespace Debond
 
 
   void
-  StateChecks::judge_strains(const CoupledSystem &system, const bool in_any_case)
+  StateChecks::judge_strains(const CoupledSystem &system,
+                             const bool           in_any_case)
   {
     for (const Side side : both_sides)
       {
         double &change = change_at_strains[side];
         if (judged_displacement[side].size() > 0 ||
-            (in_any_case && (side == Side::bone ? parameters.bone : parameters.implant).material ==
-               Material::linear))
+            (in_any_case &&
+             (side == Side::bone ? parameters.bone : parameters.implant)
+                 .material == Material::linear))
           change =
             std::max(change, system.body[side]->change_at_large_strains());
         if (change > 0.02)

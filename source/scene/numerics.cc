@@ -1,6 +1,6 @@
 #include <debond/input/entry_table.h>
 #include <debond/input/expression_parser.h>
-#include <debond/scene/finer_scenes.h>
+#include <debond/scene/scene.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -18,7 +18,6 @@ namespace Debond
     struct Choice
     {
       const Scene            &scene;
-      unsigned int            level; ///< of what is made of cells
       std::vector<SceneEntry> entries;
 
       bool
@@ -39,24 +38,6 @@ namespace Debond
       {
         if (is_open(section, name))
           entries.push_back({{section}, name, value, ""});
-      }
-
-      /** Cells of this level, of those of level 0. */
-      std::string
-      cells(std::vector<unsigned int> numbers) const
-      {
-        for (unsigned int &n : numbers)
-          for (unsigned int k = 0; k < level; ++k)
-            n = more_cells(n);
-        return entry_text(numbers);
-      }
-      /** The same of cells around an axis, which come in fours. */
-      std::string
-      cells_around(const unsigned int               fours,
-                   const std::vector<unsigned int> &rest)
-      {
-        const auto n = static_cast<unsigned int>(*read_number(cells({fours})));
-        return std::to_string(4 * n) + ", " + cells(rest);
       }
     };
 
@@ -133,16 +114,8 @@ namespace Debond
     void
     choose_around_block(Choice &choice)
     {
-      const auto n = [&](const unsigned int fewest) {
-        return static_cast<unsigned int>(*read_number(choice.cells({fewest})));
-      };
-      const unsigned int across = n(6) + 2 * n(4);
-      choice.choose("Bone",
-                    "Cells",
-                    entry_text(
-                      std::vector<unsigned int>{across, across, n(4)}));
-      choice.entries.push_back(
-        {{"Bone"}, "Cells under implant", std::to_string(n(6)), ""});
+      choice.choose("Bone", "Cells", "14, 14, 4");
+      choice.entries.push_back({{"Bone"}, "Cells under implant", "6", ""});
       choice.choose("Bone", "Layer grading", "2");
     }
 
@@ -159,26 +132,23 @@ namespace Debond
                  is_fitted          = is_open ? is_fitted_possible(choice) :
                                                 scene.bone.is_fitted();
       if (is_open && is_fitted)
-        choice.choose("Bone",
-                      "Cells",
-                      "fitted " + choice.cells_around(2, {3, 5, 5}));
+        choice.choose("Bone", "Cells", "fitted 8, 3, 5, 5");
       else if (is_open && implant.shape == BodyShape::block &&
                stays_in_place(scene))
         choose_around_block(choice);
       else if (is_open)
         {
-          choice.choose("Bone", "Cells", choice.cells(lattice_below(scene)));
+          choice.choose("Bone", "Cells", entry_text(lattice_below(scene)));
           choice.choose("Bone", "Layer grading", "2");
         }
       const bool is_disk = is_fitted && implant.shape == BodyShape::coin &&
                            implant.contact_surface == SurfaceKind::nurbs;
       choice.choose("Implant",
                     "Cells",
-                    is_disk ? "fitted " + choice.cells_around(2, {3, 3}) :
-                    implant.shape == BodyShape::ring ?
-                              choice.cells_around(3, {2, 2}) :
-                    implant.shape == BodyShape::block ? choice.cells({6, 3}) :
-                                                        choice.cells({3, 3}));
+                    is_disk                           ? "fitted 8, 3, 3" :
+                    implant.shape == BodyShape::ring  ? "12, 2, 2" :
+                    implant.shape == BodyShape::block ? "6, 3" :
+                                                        "3, 3");
       choice.choose("Bone", "Element", "spline");
       choice.choose("Implant",
                     "Element",
@@ -202,16 +172,16 @@ namespace Debond
                        is_screw ? std::ceil(6. * height / implant.pitch) :
                                   std::ceil(std::min(2. * height / implant.radius, 8.)));
       };
-      const unsigned int around = is_screw ? 4 : 3;
-      const double       in_bone =
+      const std::string around = is_screw ? "16, " : "12, ";
+      const double      in_bone =
         bone.sleeve_height > 0. ? bone.sleeve_height : implant.height;
       choice.choose("Bone",
                     "Cells",
-                    choice.cells_around(around,
-                                        {is_screw ? 2U : 3U, along(in_bone)}));
+                    around + (is_screw ? "2, " : "3, ") +
+                      std::to_string(along(in_bone)));
       choice.choose("Implant",
                     "Cells",
-                    choice.cells_around(around, {1, along(implant.height)}));
+                    around + "1, " + std::to_string(along(implant.height)));
       for (const std::string section : {"Bone", "Implant"})
         choice.choose(section, "Element", "quadratic");
     }
@@ -302,7 +272,7 @@ namespace Debond
       return {};
     Scene scene = *this; // functions of time are sampled in its phases
     scene.load_steps.steps.resize(load_steps.times.size() - 1, 10);
-    Choice choice{scene, 0, {}};
+    Choice choice{scene, {}};
     for (const std::string section : {"Bone", "Implant"})
       choice.choose(section, "Material", "linear");
     try

@@ -234,9 +234,7 @@ namespace Debond
                                   ", as the scene sets its cells\n");
     std::string list;
     for (const SceneEntry &entry : scene.completed_entries())
-      if (std::count(scene.chosen.begin(),
-                     scene.chosen.end(),
-                     entry.full_name()) > 0)
+      if (is_among(scene.chosen, entry.full_name()))
         list +=
           (list.empty() ? "" : "; ") + entry.full_name() + " = " + entry.value;
     if (!list.empty())

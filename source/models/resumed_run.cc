@@ -69,8 +69,7 @@ namespace Debond
           };
           for (const SceneEntry &entry : read_scene_text(text, "checkpoint"))
             if (free_entries.count(entry.full_name()) == 0 &&
-                std::count(chosen.begin(), chosen.end(), entry.full_name()) ==
-                  0 &&
+                !is_among(chosen, entry.full_name()) &&
                 !(is_extension && is_of_extension(entry.full_name())))
               note(entry.full_name(), entry.value);
           Classic<std::istringstream> lines(text);

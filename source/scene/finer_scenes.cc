@@ -24,6 +24,14 @@ namespace Debond
 
 
 
+  bool
+  is_among(const std::vector<std::string> &names, const std::string &entry)
+  {
+    return std::count(names.begin(), names.end(), entry) > 0;
+  }
+
+
+
   namespace
   {
     using Change = unsigned int (*)(unsigned int n);
@@ -101,14 +109,6 @@ namespace Debond
       result.note_choices(scene.chosen);
       return result;
     }
-
-
-
-    bool
-    is_among(const std::vector<std::string> &names, const SceneEntry &entry)
-    {
-      return std::count(names.begin(), names.end(), entry.full_name()) > 0;
-    }
   } // namespace
 
 
@@ -159,11 +159,8 @@ namespace Debond
   {
     Changes changes = changed_cells(scene, more_cells);
     for (auto change = changes.begin(); change != changes.end();)
-      change =
-        std::count(scene.chosen.begin(), scene.chosen.end(), change->first) >
-            0 ?
-          std::next(change) :
-          changes.erase(change);
+      change = is_among(scene.chosen, change->first) ? std::next(change) :
+                                                       changes.erase(change);
     if (changes.empty())
       return {};
     return with_choices(scene, changes);
@@ -178,7 +175,8 @@ namespace Debond
     for (const auto &[section, body] :
          {std::pair("Bone", &scene.bone), std::pair("Implant", &scene.implant)})
       if (const SceneEntry entry{{section}, "Material", "", ""};
-          is_among(scene.chosen, entry) && body->material == Material::linear)
+          is_among(scene.chosen, entry.full_name()) &&
+          body->material == Material::linear)
         changes[entry.full_name()] = "neo-hookean";
     return changes.empty() ? std::nullopt :
                              std::optional(with_choices(scene, changes));
@@ -201,7 +199,7 @@ namespace Debond
     const std::vector<std::string> chosen = choices_in(parameters);
     std::vector<SceneEntry> entries = read_scene_text(parameters, "parameters");
     for (SceneEntry &entry : entries)
-      if (is_among(chosen, entry))
+      if (is_among(chosen, entry.full_name()))
         entry.value = entry.name == "Cells under implant" ? "none" : "auto";
     return entries;
   }
@@ -213,7 +211,8 @@ namespace Debond
   {
     Changes changes;
     for (const SceneEntry &entry : read_scene_text(parameters, "parameters"))
-      if (is_among(scene.chosen, entry) && entry.subsections[0] != "Load steps")
+      if (is_among(scene.chosen, entry.full_name()) &&
+          entry.subsections[0] != "Load steps")
         changes[entry.full_name()] = entry.value;
     return changes.empty() ? scene : with_choices(scene, changes);
   }
@@ -260,7 +259,7 @@ namespace Debond
     const auto                     lines_of = [&](const std::string &text) {
       std::vector<std::string> lines;
       for (const SceneEntry &entry : read_scene_text(text, "parameters"))
-        if (!is_among(chosen, entry))
+        if (!is_among(chosen, entry.full_name()))
           lines.push_back(entry.full_name() + " = " + entry.value);
       for (const std::string &line : split(text, "\n"))
         if (line.rfind("# ", 0) == 0 &&

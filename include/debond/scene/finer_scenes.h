@@ -44,6 +44,10 @@ namespace Debond
   Scene
   with_choices_of(const Scene &scene, const std::string &parameters);
 
+  /** Whether the full name of an entry is among those that were chosen. */
+  bool
+  is_among(const std::vector<std::string> &names, const std::string &entry);
+
   /** The entries that were chosen, as the text of completed parameters names
    *  them. */
   std::vector<std::string>

@@ -10,7 +10,7 @@ faces=output/first_picture/faces
 angles="1 1.5 2.5 5" # degrees
 
 "$debond" "$scene" --force --set "Output/Directory=$curve" --set "Output/Fields every=none" --set "Output/Console=quiet"
-"$debond" "$scene" --force --set "Output/Directory=$faces" --set "Output/Fields every=none" --set "Output/Console=quiet" \
+"$debond" "$scene" --force --set "Output/Directory=$faces" --set Accuracy=none --set "Output/Fields every=none" --set "Output/Console=quiet" \
   --set "Output/Profile angles=${angles// /, }" --set "Load steps/Steps=1, 100" \
   --set "Bone/Cells=30, 30, 2" --set "Implant/Cells=12, 2" --set "Interface/Quadrature points=9" \
   --set "Bone/Material=linear" --set "Implant/Material=linear"

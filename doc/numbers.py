@@ -33,7 +33,7 @@ from debond.page_data import curve_file, rows_file  # noqa: E402
 
 BLOCK = re.compile(r'(<!-- numbers: (\w+) -->)(.*?)(<!-- end -->)', re.S)
 NUMBER = re.compile(r'(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?')
-MAIN, REFERENCE = 'prm/coin_mode3.prm', 'Output/Reference curve=prm/studies/data/work_precision_torque.csv'
+MAIN, REFERENCE = 'prm/paper/main_scene.prm', 'Output/Reference curve=prm/studies/data/work_precision_torque.csv'
 STAND_IN = 'prm/paper/data/closed_form_b_data_set_%d.csv'
 LINEAR = ('Bone/Material=linear', 'Implant/Material=linear')
 LAYERED = ('Bone/Layer grading=1.5', 'Implant/Layer grading=1.5')
@@ -514,7 +514,7 @@ def calibrated():
     lines = [[], []]  # of each set
     rows = []  # of each set as printed, with a_s fitted to E_deb, and with b_s in its place
     for i, (a_s, b_s) in enumerate(((.022, 2.33), (.026, 4.81))):
-        rows += scenes[2 * i:2 * i + 2] + [run('prm/paper/data_set_%d_calibrated.prm' % (i + 1), 'Interface/Characteristic slip distance=%g' % a_s,
+        rows += scenes[2 * i:2 * i + 2] + [run('prm/paper/data_set_%d_calibrated.prm' % (i + 1), 'Accuracy=none', 'Interface/Characteristic slip distance=%g' % a_s,
                                                'Interface/Transition factor=%g' % b_s, 'Output/Reference curve=' + STAND_IN % (i + 1))]
     for name, how, paper, digits, missed, value in (
             ('T_max [N mm]', 'fitted', (53.8, 59.5), 2, (), lambda row: row['T_max_Nmm']),
@@ -560,7 +560,7 @@ def contradictions():
 
 @numbers('seconds')
 def degrees_of_freedom():
-    return ', '.join(re.search(r'(\d+) degrees of freedom', check('prm/paper/data_set_1_calibrated.prm', 'Bone/Cells=%d, %d, 2' % (n, n),
+    return ', '.join(re.search(r'(\d+) degrees of freedom', check('prm/paper/main_scene.prm', 'Bone/Cells=%d, %d, 2' % (n, n),
                                                                   'Implant/Cells=%d, 2' % (n / 5)))[1] for n in (15, 30, 60))
 
 
@@ -992,7 +992,8 @@ def printed(text, begin, end=None):
 @numbers('seconds')
 def first_run():
     scene = 'prm/paper/data_set_1_calibrated.prm'
-    return printed(console(scene, '--force', '--set', 'Output/Directory=' + directory_of(scene, ())), 'Largest torque', 'The bond begins')
+    text = console(scene, '--force', '--set', 'Output/Directory=' + directory_of(scene, ()))
+    return printed(text, 'Largest torque', 'The bond begins')[:-len('```\n')] + '...\n' + printed(text, 'Estimated error', 'Estimated error')[len('\n```\n'):]
 
 
 TUTORIAL, TUTORIAL_FIT, MEASURED = 'prm/tutorial/implant.prm', 'prm/tutorial/fit.prm', 'prm/tutorial/measured.csv'
@@ -1026,22 +1027,14 @@ def which_entry():
     return table(['a tenth more of', 'slope', '$T_{max}$', 'end of the peak', '$T_\\infty$'], lines)
 
 
-HALF = 'Implant/Cells=20, 4', 'Interface/Quadrature points=3'
-
-
 def half_bonded(pattern):
-    return run(TUTORIAL, *HALF, 'Interface/Bonding/' + ('Expression=x > 0' if pattern == 'expression' else 'Bonded fraction=0.5'),
+    return run(TUTORIAL, 'Interface/Bonding/' + ('Expression=x > 0' if pattern == 'expression' else 'Bonded fraction=0.5'),
                'Interface/Bonding/Pattern=' + pattern)
 
 
 @numbers('seconds')
 def half_of_the_face():
     return 'from %.1f to %.1f N mm' % (run(TUTORIAL)['T_max_Nmm'], half_bonded('expression')['T_max_Nmm'])
-
-
-@numbers('seconds')
-def half_of_the_face_lateral():
-    return '%.1f N along y' % max(abs(row['chuck_Fy_N']) for row in half_bonded('expression')['curve'])
 
 
 @numbers('seconds')
@@ -1516,6 +1509,8 @@ def parameters():
         elif line.startswith('set '):
             name, default = (part.strip() for part in line[len('set '):].split('=', 1))
             meaning, allowed = ' '.join(comment).split(' Allowed: ')
+            if meaning.endswith(' No default.'):
+                meaning, default = meaning[:-len(' No default.')], None
             sections[-1][1].append((name, default, allowed, meaning))
             comment = []
     parts, others = [], {}  # of subsections x, y, z that say the same of their letters x is there
@@ -1580,7 +1575,7 @@ def entry(default, allowed, meaning, links):
     labels = '|'.join(map(re.escape, choices))
     begins = [match.start() for match in re.finditer(r"(?:(?<=^)|(?<=[.:;] ))`(?:%s)'(?:, `(?:%s)')*:" % (labels, labels), meaning)] if choices else []
     items = [meaning[i:j].strip() for i, j in zip([0] + begins, begins + [len(meaning)])] if len(begins) > 1 else [meaning]
-    lines = ['Default: ' + ('`%s`' % default if default else 'empty'),
+    lines = ['Default: ' + ('none; a scene that reads it says it' if default is None else '`%s`' % default if default else 'empty'),
              'Allowed: ' + (', '.join('`%s`' % choice for choice in choices) or plain(allowed))] + ['Unit: ' + unit] * bool(unit)
     lines.append('Meaning: ' + plain(items[0]) if items[0] else 'Meaning:')
     return '\n'.join(['- ' + line for line in lines] + ['  - ' + plain(item) for item in items[1:]])
@@ -1596,7 +1591,7 @@ PICTURES = {
     'fig_1 fig_3_12 fig_4 fig_5 fig_6 fig_7 fig_8 fig_9 fig_10 fig_13': ('doc/pictures.sh paper', 'doc/paper prm/paper'),
     'work_precision work_precision_local work_precision_codes': ('doc/studies/work_precision.sh --publish', 'doc/studies prm/studies'),
     'stiffness': ('doc/studies/stiffness.py --publish', 'doc/studies prm/studies/stiffness.prm prm/studies/data'),
-    'step_error': ('doc/pictures.sh step_error', 'doc/studies/step_error.py doc/studies/step_error.gp prm/coin_mode3.prm'),
+    'step_error': ('doc/pictures.sh step_error', 'doc/studies/step_error.py doc/studies/step_error.gp prm/paper/main_scene.prm'),
     'stability_slip_direction stability_chatter stability_penalty stability_snap_back': ('doc/pictures.sh stability', 'doc/stability prm/stability'),
     'convergence': ('doc/pictures.sh convergence', 'doc/verification/convergence.sh doc/verification/convergence.gp prm/verification'),
     'cap_pulled_off_force': ('doc/pictures.sh cap_pulled_off', 'doc/verification/cap_pulled_off.sh doc/verification/cap_pulled_off.gp '
@@ -1609,7 +1604,7 @@ PICTURES = {
     'geometry towing cell law': ('doc/pictures.sh geometry', 'doc/geometry.gp doc/towing.gp doc/cell.gp doc/law.gp'),
     'half_bonded': ('doc/pictures.sh half_bonded', 'doc/half_bonded.gp prm/paper/data_set_1_calibrated.prm'),
     'front_film': ('doc/pictures.sh film', 'doc/film.py prm/paper/data_set_1_calibrated.prm'),
-    'mesh front peeled opened': ('doc/pictures.sh bodies', 'doc/paraview prm/coin_mode3.prm prm/coin_mode3_fast.prm prm/coin_mode3_spline.prm '
+    'mesh front peeled opened': ('doc/pictures.sh bodies', 'doc/paraview prm/paper/main_scene.prm prm/coin_mode3_fast.prm prm/coin_mode3_spline.prm '
                                  'prm/adhesion/coin_peeled.prm'),
     'tutorial_fit': ('doc/pictures.sh tutorial_fit', 'doc/plot_calibration.gp prm/tutorial/fit.prm'),
     'calibration_data_set_1': ('doc/pictures.sh calibration', 'doc/plot_calibration.gp prm/calibrate/data_set_1.prm'),

@@ -48,7 +48,7 @@ at_angles() {
 
 # coins with maps that are smooth, of a scene that is otherwise that of the first run
 coin() {
-  "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Output/Console=quiet --set "Output/Fields every=none" \
+  "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Accuracy=none --set Output/Console=quiet --set "Output/Fields every=none" \
     --set "Bone/Cells=30, 30, 2" --set Bone/Material=linear --set Implant/Material=linear "$@"
 }
 
@@ -82,7 +82,7 @@ film() {
 }
 
 bodies() {
-  "$DEBOND" prm/coin_mode3.prm --force --set "Load steps/Times=0, 1" --set "Load steps/Steps=1" --set Output/Directory=output/mesh
+  "$DEBOND" prm/paper/main_scene.prm --force --set "Load steps/Times=0, 1" --set "Load steps/Steps=1" --set Output/Directory=output/mesh
   pvpython doc/paraview/bodies.py mesh output/mesh --width 1200 --output output/mesh.png
   at_angles --set "Load steps/Times=0, 1, 1.05, 1.2" --set "Load steps/Steps=1, 2, 2" --set "Bone/Cells=40, 40, 10" \
     --set "Implant/Cells=8, 8" --set Output/Directory=output/stress

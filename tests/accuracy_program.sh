@@ -8,7 +8,8 @@ set -m # else the shell lets its background processes ignore SIGINT
 debond=$1
 rm -rf results && mkdir results
 # The tolerance makes hundreds of steps, in which signals come; one of the cells is more than 0.12 % off.
-cat > scene.prm <<'SCENE'
+cat > scene.prm <<SCENE
+include $(cd "$(dirname "$0")" && pwd)/coin.prm
 set Accuracy = 0.12 %
 subsection Interface
   set Normal stiffness              = 622

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 
 /** Entries of a scene, and more. */
 inline std::vector<std::string>
@@ -33,7 +34,7 @@ class DrivenScene
 public:
   explicit DrivenScene(const std::string              &text,
                        const std::vector<std::string> &overrides = {})
-    : scene(Debond::Scene::from_text(text, overrides))
+    : scene(coin_scene(text, overrides))
     , system(scene)
     , times(scene.load_steps.planned_times())
   {
@@ -113,10 +114,10 @@ run_scene(const std::string              &name,
           const std::string              &text,
           const std::vector<std::string> &overrides = {})
 {
-  Debond::Scene scene       = Debond::Scene::from_text(text, overrides);
-  scene.output.directory    = "results/" + name;
-  scene.output.fields_every = 0;
-  scene.output.quiet        = true;
+  Debond::Scene scene                  = coin_scene(text, overrides);
+  scene.output.directory               = "results/" + name;
+  scene.output.fields_every            = 0;
+  scene.output.quiet                   = true;
   scene.output.overwrite_other_results = true;
   Debond::DebondingProblem problem(scene);
   problem.run();

@@ -7,7 +7,8 @@ set -euo pipefail
 set -m # else the shell lets its background processes ignore SIGINT
 debond=$1
 rm -rf results && mkdir results
-cat > scene.prm <<'SCENE'
+cat > scene.prm <<SCENE
+include $(cd "$(dirname "$0")" && pwd)/coin.prm
 subsection Bone
   set Cells    = 6, 6, 2
   set Material = linear

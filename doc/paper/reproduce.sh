@@ -17,7 +17,7 @@ reproduce() {
   case $1 in
     closed_form_b) python3 doc/paper/closed_form_b.py --print-only ;;
     table_1) for cells in "15, 15, 2|3, 2" "30, 30, 2|6, 2" "60, 60, 2|12, 2"; do
-        "$debond" --check prm/paper/data_set_1_calibrated.prm --set "Bone/Cells=${cells%|*}" --set "Implant/Cells=${cells#*|}"
+        "$debond" --check prm/paper/main_scene.prm --set "Bone/Cells=${cells%|*}" --set "Implant/Cells=${cells#*|}"
       done ;;
     fig_1) run fig_1; picture fig_1 fig_1/fig_1.png ;;
     fig_3_12) run fig_3_12; picture fig_3_12 fig_3_12/fig_3_12.png ;;

@@ -74,7 +74,7 @@ def run(name, entries):
     """The directory of a run of the main scene with other entries; again only if asked."""
     directory = '%s/%s' % (RESULTS, name)
     if FORCE or not os.path.exists(directory + '/summary.json'):
-        command = [DEBOND, 'prm/coin_mode3.prm', '--force']
+        command = [DEBOND, 'prm/paper/main_scene.prm', '--force']
         for entry in entries + ['Output/Directory=' + directory, 'Output/Fields every=none', 'Output/Console=quiet']:
             command += ['--set', entry]
         timed(command, directory)
@@ -128,7 +128,7 @@ def calculix(n):
     directory = '%s/calculix-%d' % (RESULTS, n)
     if FORCE or not os.path.exists(directory + '/wall_seconds'):
         os.makedirs(directory, exist_ok=True)
-        command = [CALCULIX_INPUT, 'prm/coin_mode3.prm', directory + '/calculix.inp']
+        command = [CALCULIX_INPUT, 'prm/paper/main_scene.prm', directory + '/calculix.inp']
         for entry in settings(2, SHEAR_THEN_TWIST, CODES, Steps='1, %d, %d' % (n, n)):
             command += ['--set', entry]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)

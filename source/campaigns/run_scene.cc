@@ -32,9 +32,7 @@ namespace Debond
     if (plan != nullptr && scene.model != ModelKind::finite_elements)
       for (const Warning &warning : scene.warnings())
         *plan << "warning: " << warning.text << '\n';
-    if (plan != nullptr)
-      if (const std::string line = scene.values_of_the_paper(); !line.empty())
-        *plan << line << '\n';
+
     try
       {
         if (plan != nullptr)

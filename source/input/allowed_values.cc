@@ -87,6 +87,16 @@ namespace Debond
 
 
 
+  AllowedValues
+  AllowedValues::without_default() const
+  {
+    AllowedValues result = *this;
+    result.has_default   = false;
+    return result;
+  }
+
+
+
   std::string
   AllowedValues::in_words(const std::string &value) const
   {

@@ -148,7 +148,7 @@ namespace Debond
 
 
 
-  // Words of what is allowed end with it: "a number > 0 [mm]".
+  // Words of what is allowed have it in brackets: "a number > 0 [mm]".
   std::string
   EntryTable::unit_of(const std::string &full_name) const
   {
@@ -156,10 +156,9 @@ namespace Debond
     if (row == nullptr)
       return "";
     const std::string &words = row->allowed.description;
-    const auto         begin = words.rfind('[');
-    return begin == std::string::npos || words.back() != ']' ?
-             "" :
-             words.substr(begin + 1, words.size() - begin - 2);
+    const auto         begin = words.find('['), end = words.find(']', begin);
+    return end == std::string::npos ? "" :
+                                      words.substr(begin + 1, end - begin - 1);
   }
 
 
@@ -173,6 +172,15 @@ namespace Debond
     const auto own = read_number(row->entry.value); // 0.40 is 0.4
     return own ? own == read_number(entry.value) :
                  row->entry.value == entry.value;
+  }
+
+
+
+  bool
+  EntryTable::has_default(const std::string &full_name) const
+  {
+    const Row *const row = row_of(full_name);
+    return row == nullptr || row->allowed.has_default;
   }
 
 
@@ -199,12 +207,19 @@ namespace Debond
 
 
   std::string
-  EntryTable::explained() const
+  EntryTable::explained(const bool these_are_defaults) const
   {
+    std::vector<SceneEntry>  entries = this->entries();
     std::vector<std::string> documentation;
-    for (const Row &row : rows)
-      documentation.push_back(row.documentation +
-                              "\nAllowed: " + row.allowed.description);
-    return scene_text(entries(), documentation);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        const AllowedValues &allowed = rows[i].allowed;
+        documentation.push_back(rows[i].documentation +
+                                (allowed.has_default ? "" : "\nNo default.") +
+                                "\nAllowed: " + allowed.description);
+        if (these_are_defaults && !allowed.has_default)
+          entries[i].value = "";
+      }
+    return scene_text(entries, documentation);
   }
 } // namespace Debond

@@ -36,12 +36,14 @@ namespace Debond
         table.enter_subsection("Adhesive");
         table.add("Strength",
                   t_0,
-                  Allowed::number_between(1e-9, 1e6, "MPa").or_number(0),
+                  Allowed::number_between(1e-9, 1e6, "MPa")
+                    .or_number(0)
+                    .without_default(),
                   "t_0 [MPa]: the largest pull across a full bond. 0: as Law = "
                   "friction.");
         table.add("Gap at strength",
                   g_0,
-                  Allowed::number_between(1e-9, 1e3, "mm"),
+                  Allowed::number_between(1e-9, 1e3, "mm").without_default(),
                   "g_0 [mm]: gap at the largest pull. The work of adhesion is "
                   "e t_0 g_0 [N/mm], the initial stiffness of the bond e t_0 / "
                   "g_0.");

@@ -16,8 +16,9 @@ namespace Debond
   void
   BilinearBond::declare(EntryTable &table)
   {
-    const AllowedValues strength = Allowed::number_between(1e-9, 1e6, "MPa"),
-                        work     = Allowed::number_between(1e-9, 1e6, "N/mm");
+    const AllowedValues
+      strength = Allowed::number_between(1e-9, 1e6, "MPa").without_default(),
+      work     = Allowed::number_between(1e-9, 1e6, "N/mm").without_default();
     // Strength, work and stiffness are the triangle of each of both modes;
     // Criterion and Exponent say which work lies between them.
     table.enter_subsection("Mixed mode");
@@ -42,7 +43,7 @@ namespace Debond
     table.add(
       "Stiffness",
       K,
-      Allowed::number_between(1e-6, 1e15, "MPa/mm"),
+      Allowed::number_between(1e-6, 1e15, "MPa/mm").without_default(),
       "K [MPa/mm]: traction per gap before damage, normal and tangential.");
     table.add("Criterion",
               power_law,

@@ -41,7 +41,7 @@ namespace Debond
       "`image', `file': see File.");
     table.add("Bonding degree",
               initial_bonding,
-              Allowed::number_between(0, 1, ""),
+              Allowed::number_between(0, 1, "").without_default(),
               "Bonding degree phi_0 of bonded points, dimensionless, from 0 "
               "to 1: it multiplies every pattern.");
     table.add(

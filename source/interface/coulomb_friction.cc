@@ -17,7 +17,7 @@ namespace Debond
     // 0 is for faces without friction; anything else below 1e-9 is taken for a
     // slip of the pen
     const AllowedValues allowed =
-      Allowed::number_between(1e-9, 1e6, "").or_number(0);
+      Allowed::number_between(1e-9, 1e6, "").or_number(0).without_default();
     if (coefficients == Coefficients::one)
       table.add("Friction coefficient",
                 parameters.mu_broken,
@@ -50,7 +50,7 @@ namespace Debond
     declare_coefficients(table);
     table.add("Characteristic slip distance",
               parameters.sliding_threshold,
-              Allowed::number_between(1e-9, 1e6, "mm"),
+              Allowed::number_between(1e-9, 1e6, "mm").without_default(),
               "Characteristic slip distance a_s [mm]: sliding distance up to "
               "which a point stays fully bonded. Used by modified coulomb, "
               "and by coulomb with Law = adhesive; not with Law = mixed "

@@ -28,12 +28,14 @@ namespace Debond
         table.enter_subsection("Dilatant");
         table.add("Height",
                   h_inf,
-                  Allowed::number_between(1e-9, 1e3, "mm").or_number(0),
+                  Allowed::number_between(1e-9, 1e3, "mm")
+                    .or_number(0)
+                    .without_default(),
                   "h_inf [mm]: distance by which the faces have moved apart "
                   "after long sliding.");
         table.add("Length",
                   l,
-                  Allowed::number_between(1e-9, 1e3, "mm"),
+                  Allowed::number_between(1e-9, 1e3, "mm").without_default(),
                   "l [mm]: sliding distance over which they move apart, h = "
                   "h_inf (1 - exp(-g_s/l)). Height / Length must not exceed "
                   "the friction coefficient of a debonded point, which "

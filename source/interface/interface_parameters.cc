@@ -36,7 +36,7 @@ namespace Debond
       "meet, which leaves stresses in the other body up to some 2 % off.");
     table.add("Normal stiffness",
               normal_penalty,
-              Allowed::number_between(1e-6, 1e15, "MPa/mm"),
+              Allowed::number_between(1e-6, 1e15, "MPa/mm").without_default(),
               "Normal stiffness eps_n [MPa/mm] of the interface: pressure per "
               "penetration. It is a property of the interface, and is fitted "
               "to measurements, as Tangential stiffness is.");

@@ -46,31 +46,34 @@ namespace Debond
       declare(EntryTable &table) override
       {
         table.enter_subsection("Rate and state");
-        table.add("Reference coefficient",
-                  mu_0,
-                  Allowed::number_between(1e-9, 1e6, "").or_number(0),
-                  "mu_0, dimensionless: coefficient at a speed far below "
-                  "Reference speed, with the state Sliding distance / "
-                  "Reference speed.");
+        table.add(
+          "Reference coefficient",
+          mu_0,
+          Allowed::number_between(1e-9, 1e6, "").or_number(0).without_default(),
+          "mu_0, dimensionless: coefficient at a speed far below "
+          "Reference speed, with the state Sliding distance / "
+          "Reference speed.");
         table.add("Direct effect",
                   A,
-                  Allowed::number_between(1e-9, 1e6, ""),
+                  Allowed::number_between(1e-9, 1e6, "").without_default(),
                   "A, dimensionless: mu rises immediately by A ln(1 + V/V_0) "
                   "with the speed V.");
-        table.add("Evolution effect",
-                  B,
-                  Allowed::number_between(1e-9, 1e6, "").or_number(0),
-                  "B, dimensionless: mu changes by B ln(V_0 theta/D) as the "
-                  "state theta evolves. With B > A friction falls with the "
-                  "speed.");
+        table.add(
+          "Evolution effect",
+          B,
+          Allowed::number_between(1e-9, 1e6, "").or_number(0).without_default(),
+          "B, dimensionless: mu changes by B ln(V_0 theta/D) as the "
+          "state theta evolves. With B > A friction falls with the "
+          "speed.");
         table.add("Reference speed",
                   V_0,
-                  Allowed::number_between(1e-30, 1e15, "mm per unit of time"),
+                  Allowed::number_between(1e-30, 1e15, "mm per unit of time")
+                    .without_default(),
                   "V_0 [mm per unit of time]: speed that V and D / theta are "
                   "compared with.");
         table.add("Sliding distance",
                   D,
-                  Allowed::number_between(1e-9, 1e6, "mm"),
+                  Allowed::number_between(1e-9, 1e6, "mm").without_default(),
                   "D [mm]: sliding distance over which the state evolves after "
                   "a change of speed.");
         table.add("Initial state",

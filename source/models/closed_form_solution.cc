@@ -198,10 +198,7 @@ namespace Debond
       double &normal = solution.normal_stiffness = given.normal_stiffness;
       double &torsional = solution.torsional_stiffness =
         given.torsional_stiffness;
-      const bool needs_normal = normal == 0. && given.pressure == 0. &&
-                                !scene.chuck.component[push].loaded;
-      if (!needs_normal &&
-          (torsional != 0. || scene.model != ModelKind::foundation))
+      if (!scene.asks_bodies())
         return;
       const FoundationStiffness bodies = foundation_stiffness(scene);
       if (normal == 0.)

@@ -209,10 +209,13 @@ namespace Debond
           report.add(row, are_planned ? scene.load_steps.n_steps() : 0);
           const unsigned int number =
             are_planned ? scene.load_steps.step_in_phase(row.step) : row.step;
-          if (output.fields_every > 0 &&
-              (number % output.fields_every == 0 ||
-               simulation.control().is_between_phases() ||
-               simulation.is_finished()))
+          const unsigned int every =
+            output.fields_every != output.usual_fields ? output.fields_every :
+            are_planned                                ? 50 :
+                                                         5;
+          if (every > 0 && (number % every == 0 ||
+                            simulation.control().is_between_phases() ||
+                            simulation.is_finished()))
             fields.write(row.time);
         }
         if (is_time_for_checkpoint(row) ||
@@ -395,6 +398,11 @@ namespace Debond
   void
   DebondingProblem::run(const Checkpoint *const checkpoint)
   {
+    // Eigen adds up numbers on the stack from an address on that is divisible
+    // by 64. The system puts the stack elsewhere each time, and sums would
+    // round in other ways: from here on all is where it was.
+    alignas(64) volatile char stack_begins = 0;
+    static_cast<void>(stack_begins);
     std::optional<Run> run;
     try
       {
@@ -463,7 +471,6 @@ namespace Debond
     for (const Warning &warning : simulation.warnings())
       text << "warning: " << warning.text << '\n';
     out << std::string(text);
-    if (scene.implant.geometry().has_closed_forms)
-      print_forecast(scene, out);
+    print_forecast(scene, out);
   }
 } // namespace Debond

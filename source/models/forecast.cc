@@ -1,5 +1,6 @@
 #include <debond/models/closed_form_solution.h>
 #include <debond/models/forecast.h>
+#include <debond/scene/lame_fit.h>
 #include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 
@@ -10,19 +11,75 @@
 
 namespace Debond
 {
-  Forecast::Forecast(Scene scene)
+  Forecast::Forecast(const Scene &scene)
+  {
+    const InterfaceParameters &interface = scene.interface;
+    const auto                 fit       = lame_fit(scene);
+    if (scene.bone.modulus)
+      why = "Young's modulus of the bone is not the same everywhere";
+    else if (interface.friction->depends_on_rate ||
+             interface.explicit_friction ||
+             interface.slip_direction == SlipDirection::previous_gap)
+      why = "friction depends on the rate or on the steps";
+    else if (scene.implant.geometry().has_closed_forms)
+      of_coin(scene);
+    else if (fit)
+      of_press_fit(scene, *fit);
+    else
+      why = "they are for a coin, and for the press fit of a pin in a sleeve "
+            "or of a half sphere in a shell";
+  }
+
+
+
+  // All points slide at once, under the same pressure.
+  void
+  Forecast::of_press_fit(const Scene &scene, const LameFit &fit)
+  {
+    const InterfaceParameters &interface = scene.interface;
+    pressure                             = fit.pressure();
+    error = 0.01 + fit.error * fit.bodies / (fit.bodies + fit.interface);
+    const auto moves = [&](const unsigned int k) {
+      const auto path = scene.sampled_values(k);
+      return path.back() - path.front();
+    };
+    const double turned = moves(ChuckComponent::rotation_z) * M_PI / 180.,
+                 pulled = moves(ChuckComponent::translation_z),
+                 way    = std::abs(turned) * fit.arm + std::abs(pulled);
+    if (!interface.is_friction_only() || (turned != 0. && pulled != 0.) ||
+        pulled < 0. ||
+        interface.bonding_of_law().pattern != BondingPatternKind::homogeneous)
+      return;
+    const double phi_0 = interface.bonding_of_law().initial_bonding;
+    const auto   limit = [&](const double phi) {
+      return interface.friction->limit({}, phi, pressure, 0.).value;
+    };
+    const double most = limit(phi_0),
+                 slip = way - most / interface.tangential_stiffness();
+    if (!(slip > 0.))
+      return;
+    // the distance slid in the end is known where the bond is gone by then
+    const double decay = interface.friction->decay(slip).value;
+    if (turned != 0.)
+      {
+        T_max = fit.area * fit.arm * most;
+        if (decay == 0. || decay == 1.)
+          T_end = fit.area * fit.arm * limit(decay * phi_0);
+      }
+    else if (scene.implant.shape == BodyShape::pin)
+      F_max = fit.area * most;
+  }
+
+
+
+  void
+  Forecast::of_coin(Scene scene)
   {
     const BodyParameters      &bone = scene.bone, &implant = scene.implant;
     const InterfaceParameters &interface = scene.interface;
     ChuckComponentParameters  &z =
       scene.chuck.component[ChuckComponent::translation_z];
-    if (bone.modulus)
-      why = "Young's modulus of the bone is not the same everywhere";
-    if (interface.friction->depends_on_rate || interface.explicit_friction ||
-        interface.slip_direction == SlipDirection::previous_gap)
-      why = "friction depends on the rate or on the steps";
-    if (!why.empty())
-      return;
+
     // Compliances [mm/MPa] of a layer of bone on a rigid base, on which a rigid
     // disk is pressed or twisted (Gazetas 1983, Soil Dyn. Earthq. Eng. 2, 2-42;
     // infinitely deep Boussinesq and Reissner-Sagoci), and of the implant as a
@@ -135,15 +192,23 @@ namespace Debond
       text << "Closed forms predict (bodies as springs in series with the "
               "interface, to some "
            << std::ceil(1000. * forecast.error) / 10. << " %):\n"
-           << "  mean pressure at the end " << forecast.pressure
-           << " MPa, force "
+           << "  mean pressure at the end " << forecast.pressure << " MPa";
+    if (forecast.torsional_stiffness > 0.)
+      text << ", force "
            << forecast.pressure * M_PI * std::pow(scene.implant.radius, 2)
            << " N\n"
            << "  torsional stiffness while everything sticks "
-           << forecast.torsional_stiffness << " N mm/rad\n";
+           << forecast.torsional_stiffness << " N mm/rad";
+    if (forecast.why.empty())
+      text << '\n';
     if (forecast.T_max > 0.) // it turns
-      text << "  largest torque " << forecast.T_max << " N mm, at the end "
-           << forecast.T_end << " N mm\n";
+      text << "  largest torque " << forecast.T_max << " N mm";
+    if (forecast.T_end > 0.)
+      text << ", at the end " << forecast.T_end << " N mm";
+    if (forecast.T_max > 0.)
+      text << '\n';
+    if (forecast.F_max > 0.)
+      text << "  largest force that pulls it out " << forecast.F_max << " N\n";
     out << std::string(text);
   }
 } // namespace Debond

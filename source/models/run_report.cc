@@ -148,7 +148,7 @@ namespace Debond
 
 
 
-    /** Those whose value is not the default, for the page of the run. */
+    /** Those whose value is no default, for the page of the run. */
     nlohmann::ordered_json
     changed_entries(const Scene &scene)
     {
@@ -156,7 +156,9 @@ namespace Debond
       nlohmann::ordered_json list     = nlohmann::ordered_json::array();
       for (const SceneEntry &entry : scene.completed_entries())
         if (const std::string name = entry.full_name();
-            name != "Output / Directory" && !defaults.has(entry))
+            name != "Output / Directory" &&
+            (!defaults.has(entry) ||
+             (!defaults.has_default(name) && scene.sets(name))))
           list.push_back({{"entry", name},
                           {"value", entry.value},
                           {"unit", defaults.unit_of(name)}});
@@ -189,8 +191,7 @@ namespace Debond
   {
     if (!scene.title.empty())
       console.headline(scene.title);
-    if (const std::string line = scene.values_of_the_paper(); !line.empty())
-      console.headline(line);
+
     // an earlier run may have had another curve
     for (const std::string file : {"torque.csv", "reactions.csv"})
       remove_file(directory.file(file));

@@ -83,6 +83,17 @@ namespace Debond
 
 
 
+  // A program that makes a scene chooses its cells and steps itself.
+  Scene
+  Scene::to_be_read()
+  {
+    Scene scene;
+    scene.accuracy = 0.01;
+    return scene;
+  }
+
+
+
   const EntryTable &
   default_entries()
   {
@@ -93,7 +104,7 @@ namespace Debond
         scene.declare(table);
       }
 
-      Scene      scene;
+      Scene      scene = Scene::to_be_read();
       EntryTable table;
     };
     static const Defaults defaults;
@@ -151,18 +162,21 @@ namespace Debond
   Scene::from_entries(const std::vector<SceneEntry> &entries,
                       const std::string             &name)
   {
-    Scene scene;
+    Scene scene   = to_be_read();
     scene.entries = entries;
     scene.name    = name;
     EntryTable table;
     scene.declare(table);
     std::vector<std::string> chosen;
     for (const SceneEntry &entry : entries)
-      {
-        table.set(entry);
-        if (!default_entries().has(entry))
-          scene.changed_entries.push_back(entry);
-      }
+      if (!entry.value.empty() ||
+          default_entries().has_default(entry.full_name()))
+        {
+          table.set(entry);
+          if (!default_entries().has(entry))
+            scene.changed_entries.push_back(entry);
+        }
+
 
     try
       {
@@ -178,8 +192,14 @@ namespace Debond
       }
     catch (const InputError &error)
       {
+        // with what the scene does not say it may be none
+        if (const auto *const mistake =
+              dynamic_cast<const EntryError *>(&error);
+            mistake != nullptr && !scene.sets(mistake->entry))
+          scene.require_physics();
         throw scene.with_place(error);
       }
+    scene.require_physics();
     take_entries(scene, table.entries());
     scene.note_choices(chosen);
     return scene;
@@ -327,12 +347,12 @@ namespace Debond
   void
   print_parameters(std::ostream &out, const Scene *scene)
   {
-    Scene      defaults;
+    Scene      defaults = Scene::to_be_read();
     EntryTable table;
     defaults.declare(table);
     if (scene != nullptr)
       for (const SceneEntry &entry : scene->completed_entries())
         table.set(entry);
-    out << table.explained();
+    out << table.explained(scene == nullptr);
   }
 } // namespace Debond

@@ -354,6 +354,31 @@ namespace Debond
 
 
     void
+    declare_fields(OutputParameters &output, EntryTable &table)
+    {
+      const unsigned int every = output.fields_every;
+      table.add(
+        "Fields every",
+        every == 0                   ? "none" :
+        every == output.usual_fields ? "auto" :
+                                       std::to_string(every),
+        [&output](const std::string &text) {
+          output.fields_every = text == "auto" ? output.usual_fields : 0;
+          if (text != "auto" && text != "none")
+            read_entry(text, output.fields_every);
+        },
+        Allowed::whole_number(1, std::numeric_limits<int>::max())
+          .or_word("none")
+          .or_word("auto"),
+        "Planned steps between VTU files, counted in each phase (with "
+        "Adaptive or Path following: rows, counted in the run). The end of a "
+        "phase is always written. `auto': 50 planned steps, or 5 rows. `none': "
+        "no VTU files.");
+    }
+
+
+
+    void
     declare_output(OutputParameters &output, EntryTable &table)
     {
       table.enter_subsection("Output");
@@ -364,14 +389,7 @@ namespace Debond
         "Folder for the results, relative to the working directory; created "
         "if missing. A folder with results of another scene is refused "
         "without --force.");
-      table.add(
-        "Fields every",
-        output.fields_every,
-        Allowed::whole_number(1, std::numeric_limits<int>::max())
-          .or_word_for("none", "0"),
-        "Planned steps between VTU files, counted in each phase (with "
-        "Adaptive or Path following: rows, counted in the run). The end of a "
-        "phase is always written. `none': no VTU files.");
+      declare_fields(output, table);
       declare_references(output, table);
       declare_measures(output, table);
       table.add(

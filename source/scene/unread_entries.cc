@@ -32,7 +32,19 @@ namespace Debond
     readers_of_bodies(const Scene &scene, const bool laws_of_points)
     {
       const BodyParameters &bone = scene.bone, &implant = scene.implant;
+      const bool            are_solved =
+        scene.model == ModelKind::finite_elements || scene.asks_bodies();
       return {
+        {are_solved,
+         "closed forms that ask the bodies for their stiffness",
+         {"Bone / Size",
+          "Bone / Young",
+          "Implant / Height",
+          "Implant / Young",
+          "Interface / Normal"}},
+        {bone.shape != BodyShape::cavity || bone.outer_radius == 0.,
+         "a block",
+         {"Bone / Size"}},
         {laws_of_points || !bone.is_rigid(),
          "laws of points, and bodies that deform",
          {"Bone / Cells", "Bone / Contact", "Bone / Lateral", "Bone / Size"}},
@@ -46,6 +58,25 @@ namespace Debond
         {bone.cells_under_implant > 0,
          "Cells under implant",
          {"Bone / Rim grading"}}};
+    }
+
+
+
+    std::vector<Reader>
+    readers_of_shapes(const Scene &scene)
+    {
+      std::vector<Reader> readers;
+      for (const auto &[body, name] : {std::pair(&scene.bone, "Bone / "),
+                                       std::pair(&scene.implant, "Implant / ")})
+        {
+          const auto &own = body->shape_row().entries;
+          for (const ShapeRow &shape : shape_rows())
+            for (const std::string &entry : shape.entries)
+              readers.push_back({std::count(own.begin(), own.end(), entry) > 0,
+                                 "Shape = " + shape.name,
+                                 {name + entry}});
+        }
+      return readers;
     }
 
 
@@ -152,15 +183,27 @@ namespace Debond
 
 
 
-  std::vector<Warning>
-  unread_entries(const Scene &scene)
+  std::string
+  lacking_reader(const Scene &scene, const std::string &full_name)
   {
     const bool laws_of_points = scene.model != ModelKind::crack &&
                                 scene.model != ModelKind::prescribed_angles;
-    std::vector<Reader> readers = readers_of_model(scene);
-    for (const auto &more : {readers_of_bodies(scene, laws_of_points),
-                             readers_of_interface(scene, laws_of_points)})
-      readers.insert(readers.end(), more.begin(), more.end());
+    std::string reader = other_law(scene.interface, full_name);
+    for (const auto &readers : {readers_of_model(scene),
+                                readers_of_shapes(scene),
+                                readers_of_bodies(scene, laws_of_points),
+                                readers_of_interface(scene, laws_of_points)})
+      for (const Reader &one : readers)
+        if (reader.empty() && !one.is_there && one.reads(full_name))
+          reader = one.name;
+    return reader;
+  }
+
+
+
+  std::vector<Warning>
+  unread_entries(const Scene &scene)
+  {
     std::vector<Warning> found;
     for (const SceneEntry &entry : scene.changed_entries)
       {
@@ -169,11 +212,9 @@ namespace Debond
         if (entry.place.find(':') != std::string::npos &&
             entry.place.rfind(scene.name + ":", 0) != 0)
           continue;
-        const std::string name   = entry.full_name();
-        std::string       reader = other_law(scene.interface, name);
-        for (const Reader &one : readers)
-          if (reader.empty() && !one.is_there && one.reads(name))
-            reader = one.name;
+        const std::string name   = entry.full_name(),
+                          reader = lacking_reader(scene, name);
+
         if (!reader.empty())
           found.push_back({name,
                            name + " = " + shortened(entry.value) +

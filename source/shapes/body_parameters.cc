@@ -109,14 +109,14 @@ namespace Debond
       table.add(
         "Pitch",
         implant.pitch,
-        allowed_length,
+        allowed_length.without_default(),
         "Distance [mm] along the axis between neighbouring crests of the "
         "thread of a screw, which comes out by Pitch times Starts in a turn. "
         "Before it turns, torques without friction are 0.5 % off with four "
         "cells along it, 0.07 % with six.");
       table.add("Thread depth",
                 implant.thread_depth,
-                allowed_length,
+                allowed_length.without_default(),
                 "Height [mm] of the thread of a screw.");
       table.add("Starts",
                 implant.starts,
@@ -134,7 +134,7 @@ namespace Debond
     declare_shape(table, true);
     table.add("Size",
               size,
-              Allowed::list(allowed_length, 3, 3),
+              Allowed::list(allowed_length, 3, 3).without_default(),
               "Edge lengths [mm] of the block of bone in x, y and z. Its top "
               "face is at z = 0, with its centre at the origin; its bottom is "
               "held, its sides move in their own planes only.");
@@ -197,7 +197,7 @@ namespace Debond
     table.add(
       "Radius",
       radius,
-      allowed_length,
+      allowed_length.without_default(),
       "Radius R [mm] of a coin, cap, ring or pin; of a taper at z = 0; of a "
       "screw in the middle between crest and valley; of a cup that of its "
       "sphere.");
@@ -208,26 +208,26 @@ namespace Debond
       "Inner radius [mm] of a hollow pin or cup, or of a ring. 0: solid.");
     table.add("Taper angle",
               taper_angle,
-              Allowed::number_between(0, 60, "degrees"),
+              Allowed::number_between(0, 60, "degrees").without_default(),
               "Angle [deg] between the side of a taper and its axis, half "
               "the opening angle of the cone; the taper is thinner at its "
               "lower end.");
     declare_thread(*this, table);
     table.add("Height",
               height,
-              allowed_length,
+              allowed_length.without_default(),
               "Height [mm] on the axis of a coin, cap or ring; along it of a "
               "pin, taper or screw; of a cup its depth, at most its Radius.");
     table.add("Cap radius",
               cap_radius,
-              Allowed::number_between(1e-6, 1e9, "mm"),
+              Allowed::number_between(1e-6, 1e9, "mm").without_default(),
               "Radius [mm] of the sphere that is the contact face of a cap, "
               "convex towards the bone; more than Radius. The face meets the "
               "sphere at the Greville points of its cells; between them its "
               "error is of third order in their size.");
     table.add("Size",
               size,
-              Allowed::list(allowed_length, 3, 3),
+              Allowed::list(allowed_length, 3, 3).without_default(),
               "Edge lengths [mm] of a block in x, y and z.");
     declare_cells(
       table,
@@ -290,8 +290,9 @@ namespace Debond
   void
   BodyParameters::declare_modulus(EntryTable &table, const bool is_bone)
   {
-    const std::string   what   = "Young's modulus E [MPa]; 18 GPa is 18000.";
-    const AllowedValues number = Allowed::number_between(1e-6, 1e12, "MPa");
+    const std::string   what = "Young's modulus E [MPa]; 18 GPa is 18000.";
+    const AllowedValues number =
+      Allowed::number_between(1e-6, 1e12, "MPa").without_default();
     if (!is_bone)
       {
         table.add("Young modulus",

@@ -5,6 +5,7 @@
 #   the scene             or the script
 #   --- exit code N       only --- behind a script
 #   what the program says
+# A comment with one # in the first line of a scene stands for the coin of tests/coin.prm.
 # `=== NAME.prm, turned` is short for a scene that ends with the lines below.
 BEGIN {
   turned = "\nsubsection Chuck\n  subsection Rotation z\n    set Value = t\n  end\nend"
@@ -14,7 +15,11 @@ BEGIN {
   name = $2
   is_turned = sub(/,$/, "", name)
   file = directory "/" name
+  is_first = name ~ /\.prm$/
   next
+}
+is_first && /^#[^#]/ {
+  $0 = "include files/coin.prm"
 }
 /^---/ {
   if (is_turned) print turned > file
@@ -24,5 +29,6 @@ BEGIN {
   next
 }
 {
+  is_first = 0
   print > file
 }

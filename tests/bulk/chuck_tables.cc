@@ -121,7 +121,7 @@ check_expression(const std::string &what, const Overrides &bodies)
                          scene_text,
                          with(force,
                               {z + "File = force.csv",
-                                                              z + "Value = -(0.2 + 0.8 * min(t, 1)) * table",
+                               z + "Value = -(0.2 + 0.8 * min(t, 1)) * table",
                                twist + "Value = max(table, 0)",
                                twist + "File = angle.csv"}))),
     1e-10);
@@ -174,7 +174,7 @@ check_rerun()
 
 const Overrides growing{z + "Control = force",
                         z + "File = growing.csv",
-                                                z + "Value = -(0.2 + 0.8 * min(t, 1)) * table"};
+                        z + "Value = -(0.2 + 0.8 * min(t, 1)) * table"};
 
 // The tables of growing.csv over the angle, and of its angles over time.
 void
@@ -223,13 +223,13 @@ check_identity()
 {
   write_growing();
   const auto text = [] {
-    return Scene::from_text(scene_text, growing).completed_parameters;
+    return coin_scene(scene_text, growing).completed_parameters;
   };
   const std::string before = text();
   report("the scene is the same again", text() == before);
   write("growing.csv", "angle_deg,axial force [N]\n0,30\n3,75\n");
   report("  another one with another content", text() != before);
-  Scene made = Scene::from_text(scene_text, growing);
+  Scene made = coin_scene(scene_text, growing);
   made.complete();
   report("  and the same if a program completes it",
          made.completed_parameters == text());
@@ -250,7 +250,7 @@ check_rings()
                                               "Implant/Material = rigid",
                                               "Implant/Cells = 8, 2",
                                               "Load steps/Steps = 1, 150"}));
-  const Scene         scene = Scene::from_text(scene_text, growing);
+  const Scene         scene = coin_scene(scene_text, growing);
   const MonotoneCurve force({0, 0.5, 1, 2, 3}, {30, 33, 42, 70, 75});
   constexpr double    R = 2.5, eps = 585, dtheta = 2e-3;
   constexpr unsigned  n_rings = 200;

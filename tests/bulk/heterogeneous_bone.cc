@@ -24,6 +24,7 @@
 
 #include "cauchy_stress.h"
 #include "checks.h"
+#include "coin_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -59,14 +60,14 @@ subsection Load steps
   set Residual tolerance = 1e-12
 end
 )";
-  const Scene       scene      = Scene::from_text(scene_text);
+  const Scene       scene      = coin_scene(scene_text);
   const double      nu         = scene.bone.poisson_ratio;
   const double      by_E       = (1. + nu) * (1. - 2. * nu) / (1. - nu);
   const double      compliance = 1. / scene.interface.normal_penalty +
                             by_E * (1. / 18000 + 1.5 / 500 + 2.5 / 3000);
   for (const Changes &changes : {Changes{}, Changes{"Bone/Solver=multigrid"}})
     {
-      Simulation simulation(Scene::from_text(scene_text, changes));
+      Simulation simulation(coin_scene(scene_text, changes));
       simulation.run();
       const double force = std::abs(simulation.rows().back().force_N);
       report("trilinear layers as springs in series",
@@ -74,11 +75,11 @@ end
              1e-9);
     }
   // a soft layer of a bone that is stiff in the mean
-  Simulation soft(Scene::from_text(
-    scene_text,
-    {"Bone/Young modulus=if(z > -3, 18000, if(z > -4, 5, 18000))",
-     "Chuck/Press/Value=0.4 * t"}));
-  bool       is_warned = false;
+  Simulation soft(
+    coin_scene(scene_text,
+               {"Bone/Young modulus=if(z > -3, 18000, if(z > -4, 5, 18000))",
+                "Chuck/Press/Value=0.4 * t"}));
+  bool is_warned = false;
   soft.signals.warning.connect([&](const Warning &warning) {
     is_warned = is_warned || warning.check == "strain of the bone";
   });
@@ -89,7 +90,7 @@ end
   double last = 0.;
   for (const unsigned int n : {40, 80})
     {
-      Simulation simulation(Scene::from_text(
+      Simulation simulation(coin_scene(
         scene_text,
         {"Bone/Element=spline", "Bone/Cells=2,2," + std::to_string(n)}));
       simulation.run();
@@ -367,7 +368,7 @@ rows_of(const Changes &changes)
   auto                                            &rows = known[changes];
   if (rows.empty())
     {
-      Simulation simulation(Scene::from_text(coin, changes));
+      Simulation simulation(coin_scene(coin, changes));
       simulation.run();
       rows = simulation.rows();
     }

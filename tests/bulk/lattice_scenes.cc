@@ -8,6 +8,7 @@
 #include <debond/models/simulation.h>
 
 #include "checks.h"
+#include "coin_scene.h"
 
 using namespace Debond;
 
@@ -57,8 +58,7 @@ operator+(Changes a, const Changes &b)
 void
 check_choice(const std::string &name, const Changes &changes)
 {
-  std::cout << name << ": "
-            << Scene::from_text(coin, changes).bulk_solver_in_words()
+  std::cout << name << ": " << coin_scene(coin, changes).bulk_solver_in_words()
             << std::endl;
 }
 
@@ -89,9 +89,8 @@ check_results(const std::string &name, const Changes &changes)
 {
   std::cout << name << '\n';
   Simulation lattice(
-    Scene::from_text(coin, changes + Changes{"Bone/Solver=lattice"}));
-  Simulation direct(
-    Scene::from_text(coin, changes + Changes{"Bone/Solver=direct"}));
+    coin_scene(coin, changes + Changes{"Bone/Solver=lattice"}));
+  Simulation direct(coin_scene(coin, changes + Changes{"Bone/Solver=direct"}));
   lattice.run();
   direct.run();
   const auto &rows = lattice.rows(), &expected = direct.rows();

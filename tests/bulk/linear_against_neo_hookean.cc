@@ -88,9 +88,9 @@ compare_estimate(const std::string &what,
   for (const bool is_linear : {true, false})
     {
       Simulation simulation(
-        Scene::from_text(scene,
-                         {std::string("Implant/Material=") +
-                          (is_linear ? "linear" : "neo-hookean")}));
+        coin_scene(scene,
+                   {std::string("Implant/Material=") +
+                    (is_linear ? "linear" : "neo-hookean")}));
       simulation.run();
       way[is_linear] = simulation.system().chuck.position().head<3>();
       if (is_linear)

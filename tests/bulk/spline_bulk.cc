@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "stiffness_at_rest.h"
 
 using namespace Debond;
@@ -126,7 +127,7 @@ end
 void
 check_torque()
 {
-  Simulation simulation(Scene::from_text(main_scene));
+  Simulation simulation(coin_scene(main_scene));
   simulation.run();
   const auto &rows = simulation.rows();
   report("Pressure",
@@ -159,11 +160,11 @@ check_neo_hooke()
   std::vector<std::vector<TorqueRow>> rows;
   for (const std::string material : {"linear", "neo-hookean"})
     {
-      Simulation simulation(Scene::from_text(main_scene,
-                                             {"Bone/Material=" + material,
-                                              "Implant/Material=" + material,
-                                              "Load steps/Times=0, 1, 1.1, 1.2",
-                                              "Load steps/Steps=1, 20, 5"}));
+      Simulation simulation(coin_scene(main_scene,
+                                       {"Bone/Material=" + material,
+                                        "Implant/Material=" + material,
+                                        "Load steps/Times=0, 1, 1.1, 1.2",
+                                        "Load steps/Steps=1, 20, 5"}));
       simulation.run();
       rows.push_back(simulation.rows());
     }

@@ -38,7 +38,7 @@ run(const std::string &accuracy, const Changes &changes)
   auto *const        console = std::cout.rdbuf(said.rdbuf());
   try
     {
-      run_scene(Scene::from_text(pressed_and_turned, all));
+      run_scene(coin_scene(pressed_and_turned, all));
     }
   catch (const std::exception &error)
     {
@@ -139,13 +139,13 @@ test_coarser_run_that_fails()
   std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory +
                                       "/coarser/torque.csv.partial");
-  const Scene        scene = Scene::from_text(pressed_and_turned,
-                                       {"Accuracy=1 %",
-                                               "Bone/Material=rigid",
-                                               "Implant/Material=rigid",
-                                               "Output/Console=quiet",
-                                               "Output/Fields every=none",
-                                               "Output/Directory=" + directory});
+  const Scene        scene = coin_scene(pressed_and_turned,
+                                 {"Accuracy=1 %",
+                                         "Bone/Material=rigid",
+                                         "Implant/Material=rigid",
+                                         "Output/Console=quiet",
+                                         "Output/Fields every=none",
+                                         "Output/Directory=" + directory});
   std::ostringstream none;
   auto *const        console = std::cout.rdbuf(none.rdbuf());
   std::string        error;

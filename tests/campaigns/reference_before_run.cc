@@ -12,6 +12,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "coin_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -50,7 +51,7 @@ void
 check_scene(const std::string &what, const std::vector<std::string> &changes)
 {
   std::ostringstream out;
-  run_scene(Scene::from_text(pressed_and_turned, changes, "scene.prm"),
+  run_scene(coin_scene(pressed_and_turned, changes, "scene.prm"),
             nullptr,
             &out);
   std::cout << what << '\n';

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "png_file.h"
 
 using namespace Debond;
@@ -445,15 +446,15 @@ scene_of(const std::string &shape, const std::vector<std::string> &more = {})
   if (shape == "taper")
     add({"Implant/Taper angle=15"});
   add(more);
-  return Scene::from_text("subsection Implant\n"
-                          "  set Radius = 2\n"
-                          "end\n"
-                          "subsection Chuck\n"
-                          "  subsection Rotation z\n"
-                          "    set Value = t\n"
-                          "  end\n"
-                          "end\n",
-                          entries);
+  return coin_scene("subsection Implant\n"
+                    "  set Radius = 2\n"
+                    "end\n"
+                    "subsection Chuck\n"
+                    "  subsection Rotation z\n"
+                    "    set Value = t\n"
+                    "  end\n"
+                    "end\n",
+                    entries);
 }
 
 
@@ -603,10 +604,10 @@ check_identity()
 {
   const auto text_of_scene = [](const std::string &content) {
     std::ofstream("identity.csv") << content;
-    return Scene::from_text("set Title = identity\n",
-                            {"Interface/Bonding/Pattern=file",
-                             "Interface/Bonding/File=identity.csv",
-                             "Chuck/Rotation z/Value=t"})
+    return coin_scene("set Title = identity\n",
+                      {"Interface/Bonding/Pattern=file",
+                       "Interface/Bonding/File=identity.csv",
+                       "Chuck/Rotation z/Value=t"})
       .completed_parameters;
   };
   const std::string ones  = "phi_0\n1\n1\n1\n1\n1\n1\n1\n1\n1\n";

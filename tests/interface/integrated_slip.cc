@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 
 using namespace Debond;
 
@@ -107,9 +108,9 @@ rows(const std::string &direction, const unsigned int n)
 {
   const std::string steps = std::to_string(n);
   Simulation        simulation(
-    Scene::from_text(rigid_coin,
-                     {"Expert/Slip direction=" + direction,
-                             "Load steps/Steps=1, " + steps + ", " + steps}));
+    coin_scene(rigid_coin,
+               {"Expert/Slip direction=" + direction,
+                       "Load steps/Steps=1, " + steps + ", " + steps}));
   simulation.run();
   return simulation.rows();
 }

@@ -127,7 +127,7 @@ struct State
 std::unique_ptr<Simulation>
 simulation_of(const std::vector<std::string> &overrides, Attempt &attempt)
 {
-  Scene        scene = Scene::from_text(coin, overrides);
+  Scene        scene = coin_scene(coin, overrides);
   auto        &spin  = scene.chuck.component[ChuckComponent::rotation_z];
   const double R     = scene.implant.characteristic_radius();
   const auto value = scene.chuck.value_over_time(ChuckComponent::rotation_z, R);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "png_file.h"
 
 using namespace Debond;
@@ -153,7 +154,7 @@ test_slots()
 Scene
 small_scene(const std::vector<std::string> &overrides = {})
 {
-  return Scene::from_text(R"(
+  return coin_scene(R"(
     subsection Bone
       set Material = rigid
     end
@@ -183,7 +184,7 @@ small_scene(const std::vector<std::string> &overrides = {})
       set Console          = quiet
       set Checkpoint every = 2
     end)",
-                          overrides);
+                    overrides);
 }
 
 

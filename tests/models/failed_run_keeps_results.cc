@@ -90,7 +90,7 @@ check_torque_curve(const std::vector<Debond::TorqueRow> &rows)
 void
 test()
 {
-  Debond::Scene scene                  = Debond::Scene::from_text(scene_text);
+  Debond::Scene scene                  = coin_scene(scene_text);
   scene.output.overwrite_other_results = true;
   Debond::DebondingProblem problem(scene);
   try

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -31,7 +32,7 @@ const std::string coin =
 void
 compare(const std::string &what, const std::vector<std::string> &overrides)
 {
-  Simulation     simulation(Scene::from_text(coin, overrides, "scene.prm"));
+  Simulation     simulation(coin_scene(coin, overrides, "scene.prm"));
   const Forecast forecast(simulation.scene);
   simulation.run();
   const auto &rows  = simulation.rows();
@@ -59,7 +60,7 @@ compare(const std::string &what, const std::vector<std::string> &overrides)
 void
 refuse(const std::string &what, const std::vector<std::string> &overrides)
 {
-  const Forecast forecast(Scene::from_text(coin, overrides, "scene.prm"));
+  const Forecast forecast(coin_scene(coin, overrides, "scene.prm"));
   std::cout << what << ": " << forecast.why << std::endl;
   report("  no torque", std::isnan(forecast.T_max + forecast.T_end));
 }
@@ -104,6 +105,7 @@ main()
   refuse("viscous", {"Interface/Viscosity=0.1"});
   refuse("half bonded outside",
          {bonding + "Pattern=annulus", bonding + "Bonded fraction=0.5"});
-  refuse("a bond that breaks in a jump", {"Interface/Characteristic slip distance=5e-4"});
+  refuse("a bond that breaks in a jump",
+         {"Interface/Characteristic slip distance=5e-4"});
   refuse("lifted at the end", {push + "Value=0.0049 * t * (1.5 - t)"});
 }

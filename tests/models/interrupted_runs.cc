@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "interrupted_run.h"
 
 using namespace Debond;
@@ -145,12 +146,13 @@ check(const std::string               &name,
   const std::string whole = "results/whole", parts = "results/parts";
   for (const std::string &directory : {whole, parts})
     std::filesystem::remove_all(directory);
-  std::vector<SceneEntry> entries = read_scene_text(base, "base");
+    std::vector<std::string> overrides;
   for (const SceneEntry &entry : read_scene_text(changes, name))
-    entries = with_overrides(entries, {entry.full_name() + "=" + entry.value});
+    overrides.push_back(entry.full_name() + "=" + entry.value);
   const auto scene_in = [&](const std::string &directory) {
-    return Scene::from_entries(
-      with_overrides(entries, {"Output/Directory=" + directory}), name);
+    return coin_scene(base,
+                      overrides + std::vector{"Output/Directory=" + directory},
+                      name);
   };
   const int    end  = run_in_process(scene_in(whole), false, 0);
   bool         all  = true;
@@ -185,7 +187,7 @@ check_extension(const std::string &name, const std::string &changes)
   const auto scene_in = [&](const std::string       &directory,
                             std::vector<std::string> overrides) {
     overrides.push_back("Output/Directory=" + directory);
-    return Scene::from_text(base + changes, overrides, name);
+    return coin_scene(base + changes, overrides, name);
   };
   const auto extended_by = [&](const std::vector<std::string> &overrides) {
     return find_interrupted_run(parts, "", overrides);

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "interrupted_run.h"
 
 using namespace Debond;
@@ -33,7 +34,7 @@ const unsigned int n_kills = 50, steps_between_checkpoints = 7;
 Scene
 scene_in(const std::string &place)
 {
-  return Scene::from_text(R"(
+  return coin_scene(R"(
     subsection Bone
       set Cells    = 6, 6, 2
       set Material = linear
@@ -56,9 +57,9 @@ scene_in(const std::string &place)
       set Fields every = 50
       set Console      = quiet
     end)",
-                          {"Output/Directory=" + place,
-                           "Output/Checkpoint every=" +
-                             std::to_string(steps_between_checkpoints)});
+                    {"Output/Directory=" + place,
+                     "Output/Checkpoint every=" +
+                       std::to_string(steps_between_checkpoints)});
 }
 
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "coin_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -26,7 +27,7 @@ const std::string coin = std::string("subsection Bone\n"
 void
 show(const std::string &name, const std::vector<std::string> &overrides)
 {
-  const Scene scene = Scene::from_text(coin, overrides, "scene.prm");
+  const Scene scene = coin_scene(coin, overrides, "scene.prm");
   Simulation  simulation(scene);
   simulation.run();
   std::cout << name << ":";

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -85,7 +86,7 @@ scene_of(const Changes &changes, const std::string &text = pressed_and_turned)
 {
   Changes all{"Accuracy=1 %"};
   all.insert(all.end(), changes.begin(), changes.end());
-  return Scene::from_text(text, all);
+  return coin_scene(text, all);
 }
 
 

@@ -10,7 +10,7 @@ import numpy
 
 import debond
 
-coin = """
+coin = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + """
 subsection Bone
   set Cells    = 8, 8, 2
   set Material = linear

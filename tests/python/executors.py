@@ -14,7 +14,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy
 
-COIN = """
+COIN = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + """
 subsection Bone
   set Cells    = 6, 6, 2
   set Material = linear
@@ -131,7 +131,8 @@ def check_run_many():
     bad = debond.Scene(None, {**TRUTH, "Bone/Cells": "no"}, text=text)
     alone = good.run().rows["torque_Nmm"]
     entries = {"Model": "foundation", "Chuck/Rotation z/Value": "max(t - 1, 0)",
-               "Chuck/Press/Value": "0.005 * min(t, 1)"}
+               "Chuck/Press/Value": "0.005 * min(t, 1)", "Implant/Radius": 2.5, "Interface/Friction law": "coulomb",
+               "Interface/Friction coefficient": 0.4, "Closed form/Pressure": 3, "Closed form/Torsional stiffness": 300}
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
         for one in (None, executor):
             found = debond.run_many([good, bad, entries, {"No/Entry": 1}], one)

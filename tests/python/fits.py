@@ -23,7 +23,7 @@ from debond.experiment import Experiment
 
 fits = importlib.import_module("debond.fit")  # the module, not the function
 warnings.simplefilter("error")
-SCENE = """
+SCENE = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + """
 set Model = foundation
 subsection Bone
   set Material = rigid
@@ -158,7 +158,7 @@ def check_signs():
                  {"mu_ub": 0.58, "a_s": 0.022, "angle": 0.2, "torque": 1.5, "drift": 0.8})
 
 
-PULL = """
+PULL = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + """
 subsection Bone
   set Material = rigid
   set Cells    = 4, 4, 1

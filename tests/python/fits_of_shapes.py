@@ -39,6 +39,7 @@ CURVES = {
     "Translation x, Force x": ("Translation x", "0.005 * max(t - 1, 0)"),
     "Rotation y, Moment y": ("Rotation y", "0.02 * max(t - 1, 0)"),
 }
+COIN = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n"
 LAWS = {"friction": "", "adhesive": "set Law = adhesive\nsubsection Adhesive\nset Strength = 5\nset Gap at strength = 0.005\nend\n"}
 
 
@@ -54,7 +55,7 @@ def scene_of(shape, curve, law):
     pull = f"{push} + 0.012 * max(t - 1, 0)"  # off the bone, in the end
     chuck = f"subsection Translation z\nset Value = {push if value else pull}\nend\n" + (
         f"subsection {component}\nset Value = {value}\nend\n" if value else "")
-    return (section("Bone", bone) + section("Implant", implant) + f"subsection Chuck\n{chuck}end\n"
+    return (COIN + section("Bone", bone) + section("Implant", implant) + f"subsection Chuck\n{chuck}end\n"
             f"subsection Interface\n{interface}{LAWS[law]}end\nsubsection Load steps\nset Times = 0, 1, 2\nset Steps = 2, 12\nend\n"
             f"subsection Output\nset Curve = {curve}\nend\n")
 

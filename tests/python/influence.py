@@ -22,12 +22,13 @@ fits = importlib.import_module("debond.fit")  # the module, not the function
 # What only makes the same result faster, says where it goes, or is read after the search.
 OTHERS = ("Title|Task|Output / (?!Observed|Friction energy)|Study / |Load steps / (Smallest step|Residual)|.* / Solver"
           "|Calibration / (Starts|Largest misfit|Profiles|Smallest share)")
-RIGID = "subsection Bone\nset Material = rigid\nset Cells = 4, 4, 1\nend\nsubsection Implant\nset Material = rigid\nset Cells = 2, 1\nend\n"
+COIN = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n"
+RIGID = COIN + "subsection Bone\nset Material = rigid\nset Cells = 4, 4, 1\nend\nsubsection Implant\nset Material = rigid\nset Cells = 2, 1\nend\n"
 LINEAR = RIGID.replace("rigid", "linear")
 PRESSED = "subsection Chuck\nsubsection Press\nset Value = 0.0049 * min(t, 1)\nend\nsubsection {}\nset Value = {} * max(t - 1, 0)\nend\nend\n"
 STEPS = "subsection Load steps\nset Times = 0, 1, 2\nset Steps = 1, 6\nend\n"
 ADHESIVE = "subsection Interface\nset Law = adhesive\nsubsection Adhesive\nset Strength = 5\nset Gap at strength = 0.005\nend\nend\n"
-PIN = ("subsection Bone\nset Shape = sleeve\nset Outer radius = 6\nset Material = rigid\nset Cells = 12, 1, 1\nend\nsubsection Implant\n"
+PIN = (COIN + "subsection Bone\nset Shape = sleeve\nset Outer radius = 6\nset Material = rigid\nset Cells = 12, 1, 1\nend\nsubsection Implant\n"
        "set Shape = pin\nset Radius = 2\nset Height = 5\nset Material = rigid\nset Cells = 12, 1, 1\nend\n"
        "subsection Interface\nset Interference = 0.02\nend\nsubsection Chuck\nsubsection Rotation z\nset Value = 2 * t\nend\nend\n"
        "subsection Load steps\nset Times = 0, 1\nset Steps = 6\nend\n")

@@ -5,7 +5,7 @@ import time
 
 import debond
 
-scene = debond.Scene("prm/coin_mode3.prm", {"Output/Fields every": "none"})
+scene = debond.Scene("prm/paper/main_scene.prm", {"Output/Fields every": "none"})
 n = 1000
 
 

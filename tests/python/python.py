@@ -16,7 +16,8 @@ import debond
 
 program = sys.argv[1]
 
-coin = """
+COIN = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n"
+coin = COIN + """
 subsection Bone
   set Cells    = 8, 8, 2
   set Material = linear
@@ -236,8 +237,11 @@ def check_calibration():
 
 
 def check_defaults():
-    entries = {"Model": "foundation", "Chuck/Press/Value": "0.0049 * min(t, 1)",
-               "Chuck/Rotation z/Value": "10 * max(t - 1, 0)"}
+    entries = {"Model": "foundation", "Chuck/Press/Value": "0.0049 * min(t, 1)", "Chuck/Rotation z/Value": "10 * max(t - 1, 0)",
+               "Bone/Size": "12, 12, 5", "Bone/Young modulus": 18000, "Implant/Radius": 2.5, "Implant/Height": 3,
+               "Implant/Young modulus": 113000, "Interface/Normal stiffness": 585, "Interface/Bonding/Bonding degree": 1,
+               "Interface/Friction coefficient broken": 0.4, "Interface/Friction coefficient unbroken": 0.58,
+               "Interface/Characteristic slip distance": 0.022}
     result = debond.Scene(entries=entries).run()
     check("a scene of entries alone: T_max is 2/3 pi mu_ub p R^3",
           abs(result.summary["T_max_Nmm"] / (2 / 3 * math.pi * 0.58 * result.summary["pressure_MPa"] * 2.5**3) - 1) < 0.01)
@@ -340,7 +344,7 @@ def check_latin_1():
     with open("latin_1.prm", "w", encoding="latin-1") as file:
         file.write("include latin_1_base.prm\nset Title = " + title + "  # \xfc\n")
     with open("latin_1_base.prm", "w", encoding="latin-1") as file:
-        file.write("# \xe4\nset Model = foundation\nsubsection Chuck\n subsection Press\n  set Value = 0.005\n end\n subsection Rotation z\n  set Value = 5 * t\n end\nend\n")
+        file.write(COIN + "# \xe4\nset Model = foundation\nsubsection Chuck\n subsection Press\n  set Value = 0.005\n end\n subsection Rotation z\n  set Value = 5 * t\n end\nend\n")
     scene = debond.Scene("latin_1.prm")
     for name, more in (("file", []), ("option", ["--set", "Title=" + title])):
         command = [text.encode("latin-1") for text in (program, "latin_1.prm", *more, "--set", "Output/Directory=latin_1")]

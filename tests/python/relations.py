@@ -125,9 +125,9 @@ def equal_laws(scene):
         D, V = (float(scene.entries[f"Interface/Rate and state/{name}"]) for name in ("Sliding distance", "Reference speed"))
         yield equal("initial state = steady state", Rate_and_state__Initial_state=repr(D / V))
     if law == "friction" and friction != "frictionless":
-        yield equal("friction = dilatant of no height", Law="dilatant", Dilatant__Height="0", Opening_breaks_bond=scene.entries.get("Interface/Opening breaks bond"))
+        yield equal("friction = dilatant of no height", Law="dilatant", Dilatant__Height="0", Dilatant__Length="0.05", Opening_breaks_bond=scene.entries.get("Interface/Opening breaks bond"))
     if law == "friction" and friction == "modified coulomb" and "Interface/Opening breaks bond" not in scene.entries:
-        yield equal("friction = adhesive of no strength", Law="adhesive", Adhesive__Strength="0")
+        yield equal("friction = adhesive of no strength", Law="adhesive", Adhesive__Strength="0", Adhesive__Gap_at_strength="0.01")
     if law == "mixed mode" and scene.entries["Interface/Mixed mode/Exponent"] == "1":
         yield equal("benzeggagh-kenane = power law", Mixed_mode__Criterion={"power law": "benzeggagh-kenane"}.get(
             scene.entries["Interface/Mixed mode/Criterion"], "power law"))
@@ -232,7 +232,7 @@ def run(entries, files, stem):
         with open(name, "wb") as out:
             out.write(file.content())
     try:
-        scene = debond.Scene(None, {name: names.get(text, text) for name, text in entries.items()})
+        scene = debond.Scene(None, {"Accuracy": "none"} | {name: names.get(text, text) for name, text in entries.items()})
         return scene, scene.run()
     except (debond.SceneError, debond.RunError) as error:
         return None, error

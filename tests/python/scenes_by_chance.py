@@ -271,7 +271,10 @@ class Drawn:
     def add_pattern(self):
         law, r = self.what[1], self.number
         friction = self.entries["Interface/Friction law"]
-        if self.maybe(0.4) or not (law in ("adhesive", "mixed mode") or friction in ("modified coulomb", "table")):
+        is_bonded = law in ("adhesive", "mixed mode") or friction in ("modified coulomb", "table")
+        if is_bonded:
+            self.set("Interface/Bonding", Bonding_degree=1)
+        if self.maybe(0.4) or not is_bonded:
             return
         shape = self.what[0]
         kinds = {"coin": ("disk", "annulus", "random", "image", "expression", "points"), "cap": ("disk", "random", "expression"),

@@ -22,7 +22,7 @@ from debond.variants import variants_of
 
 program, scratch = (os.path.abspath(path) for path in sys.argv[1:3])
 same = TestCase().assertEqual
-COIN = """
+COIN = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + """
 subsection Bone
   set Material = linear
 end
@@ -46,7 +46,7 @@ subsection Output
 end
 """
 # The block of the implant's chuck moves sideways, so that the bone needs further contact unknowns and condenses anew.
-BLOCK = """
+BLOCK = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + """
 subsection Interface
   set Quadrature points = 3
   subsection Bonding

@@ -3,7 +3,8 @@
 set -u
 run=$1 mpirun=$2 debond=$3
 scene=scene.prm
-cat > $scene <<'END'
+cat > $scene <<END
+include $(cd "$(dirname "$0")" && pwd)/../coin.prm
 subsection Bone
   set Cells    = 10, 10, 3
   set Material = linear

@@ -11,6 +11,7 @@
 
 #include "../checks.h"
 #include "../pressed_and_turned.h"
+#include "../coin_scene.h"
 
 using namespace Debond;
 
@@ -19,7 +20,7 @@ using namespace Debond;
 Scene
 scene_of(const std::string &change)
 {
-  return Scene::from_text(pressed_and_turned + R"(
+  return coin_scene(pressed_and_turned + R"(
 subsection Bone
   set Cells       = 10, 10, 4
   set Material    = linear
@@ -35,7 +36,7 @@ subsection Load steps
   set Residual tolerance = 1e-11
 end
 )",
-                          {change});
+                    {change});
 }
 
 

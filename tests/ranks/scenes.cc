@@ -55,7 +55,7 @@ const Changes splines{"Bone/Element=spline", "Bone/Layer grading=1.5"};
 std::vector<TorqueRow>
 rows_of(const Changes &changes, const std::string &bone)
 {
-  const Scene scene = Scene::from_text(coin_on(bone), changes);
+  const Scene scene = coin_scene(coin_on(bone), changes);
   Simulation  simulation(scene);
   simulation.run();
   // Where adaptive steps end depends on the last digits of their estimates.
@@ -99,8 +99,7 @@ compare(const std::string &name,
         const Changes     &changes,
         const std::string &bone = block)
 {
-  const auto whole =
-    rows_of(changes + Changes{"Bone/Solver=multigrid"}, bone);
+  const auto whole = rows_of(changes + Changes{"Bone/Solver=multigrid"}, bone);
   std::vector<TorqueRow> direct;
   {
     const Ranks::Together alone(MPI_COMM_SELF);

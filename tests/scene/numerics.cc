@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -37,8 +38,7 @@ operator+(Changes list, const Changes &more)
 Scene
 scene_of(const Changes &changes)
 {
-  return Scene::from_text(pressed_and_turned,
-                          Changes{"Accuracy=1 %"} + changes);
+  return coin_scene(pressed_and_turned, Changes{"Accuracy=1 %"} + changes);
 }
 
 
@@ -104,7 +104,7 @@ test_parameters(const Scene &scene)
 {
   const std::string &parameters = scene.completed_parameters;
   report_work("  its parameters choose nothing", [&] {
-    const Scene again = Scene::from_text(parameters);
+    const Scene again = coin_scene(parameters);
     return again.chosen.empty() && !again.completed_parameters.empty() &&
            parameters.rfind(again.completed_parameters, 0) == 0;
   });
@@ -351,7 +351,7 @@ test_none()
   report("  nothing is chosen", scene.chosen.empty());
   report("  the parameters are those of the defaults",
          scene.completed_parameters ==
-           Scene::from_text(pressed_and_turned).completed_parameters);
+           coin_scene(pressed_and_turned).completed_parameters);
   report("  cells of the paper",
          cells_of(scene) == cells_of(Scene()) &&
            scene.bone.cells == std::array<unsigned int, 3>{{15, 15, 2}} &&

@@ -10,6 +10,8 @@
 #include <limits>
 #include <string>
 
+#include "coin_scene.h"
+
 namespace
 {
   using namespace Debond;
@@ -84,7 +86,7 @@ main()
   Scene made = turning();
   made.check();
   made.complete();
-  const Scene read = Scene::from_text(the_same);
+  const Scene read = coin_scene(the_same);
   std::cout << "made as read: "
             << (made.completed_parameters == read.completed_parameters) << '\n'
             << "tolerance as it was: "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 
 using namespace Debond;
 
@@ -38,27 +39,29 @@ main()
                               "    set Value = 10 * max(t - 1, 0) # degrees\n"
                               "  end\n"
                               "end\n";
-  // the defaults, but for the entry that is given
-  std::vector<std::string> expected = entries_of(printed(nullptr));
+    // the values of a scene that nothing was said of, which are the coin's, but
+  // for the entry that is given
+  Scene usual;
+  usual.complete();
+  std::vector<std::string> expected = entries_of(printed(&usual));
   for (std::string &entry : expected)
     if (entry.rfind("Chuck / Rotation z / Value = ", 0) == 0)
       entry = "Chuck / Rotation z / Value = 10 * max(t - 1, 0)";
-  const auto completed =
-    entries_of(Scene::from_text(turning).completed_parameters);
-  report("every entry is there, with its default or what is given",
+  const auto completed = entries_of(coin_scene(turning).completed_parameters);
+  report("every entry is there, with its usual value or what is given",
          completed.size() > 100 && completed == expected);
 
-  const Scene scene = Scene::from_text(turning,
-                                       {"Title=a = \"b\", ä",
-                                        "Implant/Shape=block",
-                                        "Implant/Cells=4, 5, 2",
-                                        "Bone/Material=linear",
-                                        "Interface/Slave=bone"});
-  const Scene again = Scene::from_text(scene.completed_parameters);
+  const Scene scene = coin_scene(turning,
+                                 {"Title=a = \"b\", ä",
+                                  "Implant/Shape=block",
+                                  "Implant/Cells=4, 5, 2",
+                                  "Bone/Material=linear",
+                                  "Interface/Slave=bone"});
+  const Scene again = coin_scene(scene.completed_parameters);
   report("round trip of the completed parameters",
          again.completed_parameters == scene.completed_parameters);
   report("round trip of the printed parameters",
-         Scene::from_text(printed(&scene)).completed_parameters ==
+         coin_scene(printed(&scene)).completed_parameters ==
            scene.completed_parameters);
 
   const BodyParameters &implant = again.implant;

@@ -2,10 +2,10 @@
 // sets again what it has set itself. What else is refused:
 // tests/bad_scenes/include.scenes.
 
-#include <debond/scene/scene.h>
-
 #include <fstream>
 #include <iostream>
+
+#include "coin_scene.h"
 
 namespace
 {
@@ -14,7 +14,7 @@ namespace
   {
     try
       {
-        const Debond::Scene scene = Debond::Scene::from_text(text);
+        const Debond::Scene scene = coin_scene(text);
         std::cout << scene.title << ", " << scene.bone.young_modulus << '\n';
       }
     catch (const Debond::InputError &error)

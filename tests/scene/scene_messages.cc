@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "coin_scene.h"
+
 namespace
 {
   const std::string turning = "subsection Chuck\n"
@@ -26,7 +28,7 @@ namespace
     std::cout << mistake << ":\n  ";
     try
       {
-        Debond::Scene::from_text(text, overrides, "scene.prm");
+        coin_scene(text, overrides, "scene.prm");
         std::cout << "accepted\n";
       }
     catch (const Debond::InputError &error)

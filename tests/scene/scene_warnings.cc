@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "coin_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -21,7 +22,7 @@ show(const std::vector<std::string> &overrides)
     std::cout << (&text == &overrides.front() ? "" : ", ") << text;
   std::cout << ":\n";
   for (const Warning &warning :
-       Scene::from_text(pressed_and_turned, overrides, "scene.prm").warnings())
+       coin_scene(pressed_and_turned, overrides, "scene.prm").warnings())
     std::cout << "  " << warning.text << "\n";
 }
 

@@ -34,27 +34,27 @@ scene_of(const std::string &shape, const unsigned int n)
                       std::string(shape == "cup" ? "2" : "0.8"));
   if (shape == "screw")
     entries.push_back("Implant/Pitch=3"); // a turn
-  return Scene::from_text("subsection Bone\n"
-                          " set Shape = " +
-                            std::string(is_cup ? "cavity" : "sleeve") +
-                            "\n"
-                            " set Outer radius = 6\n"
-                            " set Element = quadratic\n"
-                            "end\n"
-                            "subsection Implant\n"
-                            " set Shape = " +
-                            (is_cup ? "cup" : shape) +
-                            "\n"
-                            " set Radius = 2\n"
-                            " set Height = 3\n"
-                            " set Element = quadratic\n"
-                            "end\n"
-                            "subsection Chuck\n"
-                            " subsection Rotation z\n"
-                            "  set Value = t\n"
-                            " end\n"
-                            "end\n",
-                          entries);
+  return coin_scene("subsection Bone\n"
+                    " set Shape = " +
+                      std::string(is_cup ? "cavity" : "sleeve") +
+                      "\n"
+                      " set Outer radius = 6\n"
+                      " set Element = quadratic\n"
+                      "end\n"
+                      "subsection Implant\n"
+                      " set Shape = " +
+                      (is_cup ? "cup" : shape) +
+                      "\n"
+                      " set Radius = 2\n"
+                      " set Height = 3\n"
+                      " set Element = quadratic\n"
+                      "end\n"
+                      "subsection Chuck\n"
+                      " subsection Rotation z\n"
+                      "  set Value = t\n"
+                      " end\n"
+                      "end\n",
+                    entries);
 }
 
 

@@ -52,7 +52,7 @@ files_of(const std::string &name,
          const bool         shuffled,
          const std::string &text = torsion)
 {
-  const Scene scene = Scene::from_text(text, entries);
+  const Scene scene = coin_scene(text, entries);
   Overrides   result;
   for (const Side side : both_sides)
     {
@@ -139,7 +139,7 @@ small_face(const std::string &what, const Overrides &materials)
   const Overrides bilinear =
     materials + Overrides{"Bone/Contact surface=bilinear",
                           "Implant/Contact surface=bilinear"};
-  const Scene     scene = Scene::from_text(torsion, bilinear);
+  const Scene     scene = coin_scene(torsion, bilinear);
   const BulkSpace bone(scene.bone, Side::bone);
   write_small_face(bone, "small.msh", 4.3, Boundary::free);
   const Overrides small{"Bone/Shape=file",
@@ -153,8 +153,7 @@ small_face(const std::string &what, const Overrides &materials)
   // held by the cells beside: then the border of the face is
   write_small_face(bone, "held.msh", 4.3, Boundary::held);
   const BulkSpace held(
-    Scene::from_text(torsion, {"Bone/Shape=file", "Bone/Mesh file=held.msh"})
-      .bone,
+    coin_scene(torsion, {"Bone/Shape=file", "Bone/Mesh file=held.msh"}).bone,
     Side::bone);
   unsigned int n_held = 0, n_wrong = 0;
   for (unsigned int A = 0; A < held.surface().n_control_points(); ++A)
@@ -286,7 +285,7 @@ void
 faces_at_start()
 {
   const auto faces_of = [](const std::string &what, const Overrides &entries) {
-    const Simulation simulation(Scene::from_text(torsion, entries));
+    const Simulation simulation(coin_scene(torsion, entries));
     std::cout << what << ":";
     for (const Warning &warning : simulation.warnings())
       std::cout << " [" << warning.check << "]";
@@ -306,10 +305,9 @@ faces_at_start()
   // a stem that ends where its bone does
   write_coin("deep.msh", 2.5, 3., 1, 1, -3.);
   report("the chuck's point is at the top",
-         std::abs(
-           Scene::from_text(torsion, {file[0], "Implant/Mesh file=deep.msh"})
-             .implant.geometry()
-             .chuck_height),
+         std::abs(coin_scene(torsion, {file[0], "Implant/Mesh file=deep.msh"})
+                    .implant.geometry()
+                    .chuck_height),
          1e-12);
   write_coin("middle.msh", 2.5, 3., 1, 1, 0., 1.9);
   faces_of("a ring left out", {file[0], "Implant/Mesh file=middle.msh"});

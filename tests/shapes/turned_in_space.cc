@@ -71,25 +71,25 @@ rows_of(const Bodies &bodies, const Eigen::Matrix3d &Q)
   for (unsigned int e = 0; e < implant->n_contact_faces; ++e)
     pattern << e % 4 / 3. << "\n";
   pattern.close();
-  Scene scene                     = Scene::from_text("subsection Bone\n"
-                                                     "  set Material = linear\n"
-                                                     "  set Young modulus = 500\n"
-                                                     "  set Element = quadratic\n"
-                                                     "end\n"
-                                                     "subsection Implant\n"
-                                                     "  set Material = linear\n"
-                                                     "  set Element = quadratic\n"
-                                                     "end\n"
-                                                     "subsection Chuck\n"
-                                                     "  subsection Rotation z\n"
-                                                     "    set Value = t\n"
-                                                     "  end\n"
-                                                     "end\n"
-                                                     "subsection Load steps\n"
-                                                     "  set Times = 0, 1\n"
-                                                     "  set Steps = 6\n"
-                                                     "  set Residual tolerance = 1e-12\n"
-                                                     "end\n");
+  Scene scene                     = coin_scene("subsection Bone\n"
+                                               "  set Material = linear\n"
+                                               "  set Young modulus = 500\n"
+                                               "  set Element = quadratic\n"
+                                               "end\n"
+                                               "subsection Implant\n"
+                                               "  set Material = linear\n"
+                                               "  set Element = quadratic\n"
+                                               "end\n"
+                                               "subsection Chuck\n"
+                                               "  subsection Rotation z\n"
+                                               "    set Value = t\n"
+                                               "  end\n"
+                                               "end\n"
+                                               "subsection Load steps\n"
+                                               "  set Times = 0, 1\n"
+                                               "  set Steps = 6\n"
+                                               "  set Residual tolerance = 1e-12\n"
+                                               "end\n");
   scene.interface.bonding.pattern = BondingPatternKind::file;
   scene.interface.bonding.file    = "pattern.csv";
   scene.implant.mesh              = implant;

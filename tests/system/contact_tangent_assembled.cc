@@ -13,6 +13,7 @@
 #include <string>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "softening.h"
 
 using namespace Debond;
@@ -91,7 +92,7 @@ check(const std::string    &name,
               "\nset Control = " + (rotation ? "moment" : "force") +
               "\nset Value = 1\nset Stiffness = none\nend\nend\n";
     }
-  const Scene            scene = Scene::from_text(text);
+  const Scene            scene = coin_scene(text);
   CoupledSystem          system(scene);
   const ContactPointMode mode;
   system.start(0.);

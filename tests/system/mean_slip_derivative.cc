@@ -11,6 +11,7 @@
 #include <string>
 
 #include "checks.h"
+#include "coin_scene.h"
 
 using namespace Debond;
 
@@ -18,7 +19,7 @@ void
 check(const std::string &slave)
 {
   std::cout << "The slave is the " << slave << std::endl;
-  const Scene      scene = Scene::from_text(R"(
+  const Scene      scene = coin_scene(R"(
     subsection Bone
       set Size     = 8, 8, 4
       set Cells    = 5, 5, 2
@@ -28,8 +29,9 @@ check(const std::string &slave)
       set Material = linear
     end
     subsection Interface
-      set Slave             = )" + slave +
-                                       R"(
+      set Slave             = )" +
+                                 slave +
+                                 R"(
       set Quadrature points = 4
     end
     subsection Chuck

@@ -44,7 +44,7 @@ compare(const std::string              &what,
   run_scene("memory_estimate", scene_text, overrides);
   const double measured = Debond::peak_memory_MB() - before_MB;
   const auto   estimate = [](const std::vector<std::string> &overrides) {
-    const auto scene = Debond::Scene::from_text(scene_text, overrides);
+    const auto scene = coin_scene(scene_text, overrides);
     return 1e3 *
            Debond::MemoryEstimate(scene, scene.bulk_solver(), false).total;
   };
@@ -72,9 +72,8 @@ check_limit()
   report("there is some memory", before > 0.);
   report("a limit of 8000 MB leaves less than that, as some is taken",
          taken > 0. && within < 8000. && within <= before + 1000.);
-  const auto large      = Debond::Scene::from_text(scene_text,
-                                              {"Bone/Cells=200, 200, 20",
-                                                    "Implant/Cells=60, 20"});
+  const auto large =
+    coin_scene(scene_text, {"Bone/Cells=200, 200, 20", "Implant/Cells=60, 20"});
   const auto is_refused = [&](const bool has_bodies) {
     try
       {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 #include "softening.h"
 
 using namespace Debond;
@@ -90,7 +91,7 @@ check(const std::string &name,
       const double       lift = 0.)
 {
   const Scene scene =
-    Scene::from_text(R"(
+    coin_scene(R"(
     subsection Bone
       set Material = linear
     end
@@ -105,9 +106,9 @@ check(const std::string &name,
         set Value = max(t - 1, 0)
       end
     end)" + changes,
-                     {"Chuck/Press/Value=0.0049 * "
-                      "min(t, 1) - " +
-                      std::to_string(lift / angle) + " * max(t - 1, 0)"});
+               {"Chuck/Press/Value=0.0049 * "
+                "min(t, 1) - " +
+                std::to_string(lift / angle) + " * max(t - 1, 0)"});
 
   CoupledSystem system(scene);
   NewtonOptions options;

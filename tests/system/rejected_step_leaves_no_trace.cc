@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "checks.h"
+#include "coin_scene.h"
 
 using namespace Debond;
 
@@ -170,7 +171,7 @@ void
 check(const std::string &name, const std::string &changes)
 {
   std::cout << name << std::endl;
-  const Scene scene = Scene::from_text(R"(
+  const Scene scene = coin_scene(R"(
     subsection Chuck
       subsection Press
         set Value = 0.0049 * min(t, 1)

@@ -23,6 +23,9 @@ namespace Debond
     /** A word, such as `auto' or `none', and the text of the value that it
      *  stands for. Both may be empty. */
     std::string word = "", word_value = "";
+    /** Whether a scene that reads the entry need not set it. */
+    bool has_default = true;
+
 
     /** "expected ..." with a hint, or nothing if @p text is allowed. */
     std::string
@@ -38,6 +41,11 @@ namespace Debond
      *  member: an empty name, or a number that is none of the others. */
     AllowedValues
     or_word_for(const std::string &word, const std::string &text) const;
+
+    /** The same values of an entry that a scene has to set where it reads it.
+     */
+    AllowedValues
+    without_default() const;
 
     /** The text of an entry for the text of a member's value, and back. */
     std::string

@@ -16,8 +16,9 @@ namespace Debond
 {
   /**
    * The entries of a scene, one row each. A row ties an entry to the member of
-   * a struct: the value of the member is the default, what the entry is set to
-   * goes there. The structs must live as long as the table.
+   * a struct: the value of the member is the default, unless it has none (see
+   * AllowedValues::without_default); what the entry is set to goes there. The
+   * structs must live as long as the table.
    *
    * @code
    *   void
@@ -75,6 +76,10 @@ namespace Debond
     bool
     has(const SceneEntry &entry) const;
 
+    /** Whether a scene that reads an entry need not set it. */
+    bool
+    has_default(const std::string &full_name) const;
+
     /** Whether a @p text stands for the value of an entry, if by a word. */
     bool
     means(const SceneEntry &entry, const std::string &text) const;
@@ -83,9 +88,12 @@ namespace Debond
     std::vector<SceneEntry>
     entries() const;
 
-    /** The same as the text of a scene, with what they mean and allow. */
+
+
+    /** The same as the text of a scene, with what they mean and allow. Nothing
+     *  is given for what has to be set if @p these_are_defaults. */
     std::string
-    explained() const;
+    explained(bool these_are_defaults) const;
 
   private:
     struct Row

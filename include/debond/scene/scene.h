@@ -48,12 +48,13 @@ namespace Debond
   /** The subsection `Output` of a scene. */
   struct OutputParameters
   {
-    std::string  directory = "output/coin";
-    unsigned int fields_every =
-      50;                        ///< planned steps between VTU files, 0: none
-    std::string curve = "auto";  ///< see CurveAxes
-    CurveAxes   axes;            ///< what it means in this scene
-    std::string reference_curve; ///< file with a measured curve, or empty
+    std::string                   directory    = "output/coin";
+    static constexpr unsigned int usual_fields = -1;
+    /** Planned steps, or rows, between VTU files; 0: none. */
+    unsigned int fields_every = usual_fields;
+    std::string  curve        = "auto"; ///< see CurveAxes
+    CurveAxes    axes;                  ///< what it means in this scene
+    std::string  reference_curve; ///< file with a measured curve, or empty
     std::vector<std::string> reference_columns;  ///< of it; empty: recognised
     std::string              reference_profiles; ///< a profiles.csv, or empty
     std::vector<double>      curve_at;           ///< angles [deg]
@@ -126,6 +127,10 @@ namespace Debond
     /** What is to be chosen: entries that the scene leaves at `auto`. */
     std::vector<SceneEntry>
     chosen_entries() const;
+    /** Whether a closed form needs a stiffness that the scene does not say, but
+     *  its bodies. */
+    bool
+    asks_bodies() const;
     /** Whether the interface, and not the bodies, says what the pressure is: it
      *  has no peak at the rim then. */
     bool
@@ -148,6 +153,9 @@ namespace Debond
     std::vector<SceneEntry>
     completed_entries() const;
 
+    /** A scene before its entries are read. */
+    static Scene
+    to_be_read();
     /** Reads a file, then the overrides "Subsection/Entry=value" in order.
      *  Throws InputError with file, line, entry, value, what is allowed. */
     static Scene
@@ -200,10 +208,13 @@ namespace Debond
     std::vector<Warning>
     warnings() const;
 
-    /** Sizes, moduli and the interface as far as the scene does not set them,
-     *  in a line; nothing if it sets all that it reads. */
-    std::string
-    values_of_the_paper() const;
+    /** Whether it sets an entry, and not to nothing. */
+    bool
+    sets(const std::string &full_name) const;
+    /** Refuses a scene that reads entries without default and does not set
+     *  them: throws InputError with the lines that it lacks. */
+    void
+    require_physics() const;
   };
 
   /** All entries, their units, and the values of a scene that nothing was said
@@ -215,6 +226,10 @@ namespace Debond
    *  those of @p scene, or the defaults without one. */
   void
   print_parameters(std::ostream &out, const Scene *scene = nullptr);
+
+  /** What would read an entry that nothing reads in the scene; else nothing. */
+  std::string
+  lacking_reader(const Scene &scene, const std::string &full_name);
 
   /** Warnings of entries that were set, and that nothing reads in the scene. */
   std::vector<Warning>

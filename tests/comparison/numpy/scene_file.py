@@ -20,7 +20,7 @@ FREE_TEXT = object()  # entries that say nothing about the mechanics
 BODY = {'Element': ('trilinear',), 'Layer grading': 1., 'Material': ('neo-hookean', 'linear'), 'Poisson ratio': .3,
         'Contact surface': ('nurbs',)}
 ENTRIES = {
-    'Title': FREE_TEXT, 'Model': ('finite elements',), 'Task': ('simulate',),
+    'Title': FREE_TEXT, 'Accuracy': ('none',), 'Model': ('finite elements',), 'Task': ('simulate',),
     **{'Bone/' + name: value for name, value in BODY.items()},
     'Bone/Size': [12.5, 12.5, 5.], 'Bone/Cells': [15., 15., 2.], 'Bone/Young modulus': 18000.,
     'Bone/Lateral grading': ('1',), 'Bone/Cells under implant': ('none',), 'Bone/Rim grading': ('1.5',),

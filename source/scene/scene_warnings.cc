@@ -1,4 +1,5 @@
 #include <debond/input/entry_table.h>
+#include <debond/scene/lame_fit.h>
 #include <debond/scene/scene.h>
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/modulus_field.h>
@@ -446,6 +447,25 @@ namespace Debond
             judge_rotation(scene, entry, values, note);
         }
     }
+
+
+
+    void
+    judge_press_fit(const Scene &scene, const Note &note)
+    {
+      const auto fit = lame_fit(scene);
+      if (fit && fit->bodies > 0.)
+        note(fit->interface > fit->bodies,
+             "spring of a press fit",
+             "Interface / Normal stiffness = " +
+               to_text(scene.interface.normal_penalty) + " MPa/mm takes up " +
+               to_text(100. * fit->interface / (fit->interface + fit->bodies),
+                       2) +
+               " % of the Interference: the pressure is some " +
+               to_text(fit->pressure(), 3) +
+               " MPa, where the bodies alone would have " +
+               to_text(fit->half_interference / fit->bodies, 3) + " MPa");
+    }
   } // namespace
 
 
@@ -463,6 +483,7 @@ namespace Debond
     judge_bodies(*this, note);
     judge_interface(*this, note);
     judge_chuck(*this, note);
+    judge_press_fit(*this, note);
     for (const Warning &unread : unread_entries(*this))
       found.push_back(unread);
     return found;

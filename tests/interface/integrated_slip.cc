@@ -89,6 +89,44 @@ check_disk()
 
 
 
+/** A gap that is longer than its limit, and comes to be shorter before it is
+ *  longer again, is that of a step that begins where it comes to its limit for
+ *  good: at the larger root of a quadratic equation. */
+void
+check_pulled_in_and_out()
+{
+  const Arc straight(0.);
+  double    deviation = 0.;
+  for (unsigned int i = 0; i < 20000; ++i)
+    {
+      const double          angle = random_number(0., 2. * M_PI);
+      const Eigen::Vector2d along(std::cos(angle), std::sin(angle)),
+        across(-along[1], along[0]);
+      const double L = random_number(1e-4, 1e-3), held = random_number(0., L),
+                   change = held - L, offset = random_number(-0.5, 0.5) * held,
+                   behind     = random_number(1.1, 8.) * L,
+                   way        = behind + random_number(2., 50.) * L;
+      const Eigen::Vector2d g = offset * across - behind * along,
+                            m = way * along;
+      // |g + f m| = L + f change
+      const double a = way * way - change * change, b = g.dot(m) - L * change,
+                   c = g.squaredNorm() - L * L, root = b * b - a * c;
+      if (root < 1e-3 * b * b)
+        continue;
+      const double   f = (-b + std::sqrt(root)) / a, end = L + f * change;
+      const TowedGap whole({straight, g, m, L, held, held}),
+        rest({straight, g + f * m, (1. - f) * m, end, held, held});
+      grow(deviation,
+           (whole.direction - rest.direction).norm() +
+             std::abs(whole.distance - rest.distance) / way);
+    }
+  report("pulled in and out again: differs from the part beyond the limit",
+         deviation,
+         1e-8);
+}
+
+
+
 const std::string rigid_coin =
   "subsection Bone\n set Material = rigid\nend\n"
   "subsection Implant\n set Material = rigid\n set Cells = 12, 2\nend\n"
@@ -165,5 +203,6 @@ int
 main()
 {
   check_disk();
+  check_pulled_in_and_out();
   check_order();
 }

@@ -67,11 +67,68 @@ refuse(const std::string &what, const std::vector<std::string> &overrides)
 
 
 
+// Numbers are those of prm/shapes/pin_twisted.prm and cup_twisted.prm, for an
+// interference that is small against the radius.
+void
+check_press_fits()
+{
+  const auto forecast = [](const std::string              &motion,
+                           const std::vector<std::string> &overrides) {
+    return Forecast(
+      coin_scene("subsection Chuck\n subsection " + motion +
+                   "\n end\nend\n"
+                   "subsection Load steps\n set Times = 0, 1\n set Steps = 1\nend\n"
+                   "subsection Implant\n set Material = rigid\nend\n",
+                 overrides));
+  };
+  const std::vector<std::string> pin{"Bone/Shape=sleeve",
+                                     "Bone/Outer radius=6",
+                                     "Bone/Ends=slide",
+                                     "Bone/Cells=16, 4, 1",
+                                     "Implant/Shape=pin",
+                                     "Implant/Radius=2",
+                                     "Implant/Height=5",
+                                     "Implant/Cells=16, 1, 1",
+                                     "Interface/Interference=2e-5"},
+    cup{"Bone/Shape=cavity",
+        "Bone/Outer radius=36",
+        "Bone/Ends=slide",
+        "Bone/Cells=16, 3, 2",
+        "Bone/Young modulus=500",
+        "Implant/Shape=cup",
+        "Implant/Radius=26",
+        "Implant/Height=26",
+        "Implant/Cells=16, 1, 2",
+        "Interface/Interference=0.02"};
+  const double p =
+    1e-5 / (1. / 585. + 1.3 / 18000. * 2. * (9. - 1.) / (2.5 + 9.));
+  const auto turned = forecast("Rotation z\n set Value = 4 * t", pin),
+             pulled = forecast("Translation z\n set Value = 0.1 * t", pin),
+             sphere = forecast("Rotation z\n set Value = 4 * t", cup);
+  report("a pin by Lame: pressure", std::abs(turned.pressure / p - 1.), 1e-12);
+  report("  torque",
+         std::abs(turned.T_max / (40. * M_PI * 0.58 * p) - 1.) +
+           std::abs(turned.T_end / (40. * M_PI * 0.4 * p) - 1.),
+         1e-12);
+  report("  force",
+         std::abs(pulled.F_max / (20. * M_PI * 0.58 * p) - 1.),
+         1e-12);
+  report("  no torque of what is pulled", std::isnan(pulled.T_max));
+  report("a cup by Lame: pressure",
+         std::abs(sphere.pressure / 0.676728 - 1.),
+         1e-6);
+  report("  torque", std::abs(sphere.T_end / 23478.2 - 1.), 1e-5);
+}
+
+
+
 int
 main()
 {
   const std::string push = "Chuck/Press/", twist = "Chuck/Rotation z/",
                     bonding = "Interface/Bonding/";
+  check_press_fits();
+
   compare("main scene", {});
   compare("both rigid", {"Bone/Material=rigid", "Implant/Material=rigid"});
   compare("stiff interface", {"Interface/Normal stiffness=6000"});

@@ -57,6 +57,18 @@ main()
           "Implant/Element=quadratic",
           entry});
 
+  // a press fit, where the spring takes up most of it, and where the bodies do
+  for (const std::string entry : {"585", "1e5"})
+    show({"Bone/Shape=sleeve",
+          "Bone/Outer radius=6",
+          "Bone/Cells=16, 4, 2",
+          "Bone/Element=quadratic",
+          "Implant/Shape=pin",
+          "Implant/Cells=16, 1, 2",
+          "Implant/Element=quadratic",
+          "Interface/Interference=0.02",
+          "Interface/Normal stiffness=" + entry});
+
   // a coin in um
   show({"Implant/Radius=2500",
         "Implant/Height=3000",

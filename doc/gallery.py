@@ -32,7 +32,7 @@ import numpy as np  # noqa: E402
 from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
 from PIL import Image  # noqa: E402
 
-from debond.page_data import rows_file  # noqa: E402
+from debond.page_data import curve_file, rows_file  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 GALLERY = os.path.join(ROOT, "doc", "gallery")
@@ -126,7 +126,7 @@ def label_of(name):
 
 def curve_of(directory):
     """-> names of the axes, x, y: the torque over the angle or, without one, that motion of the chuck that does most of the work"""
-    table = table_of(rows_file(directory))
+    table = table_of(curve_file(directory))
     best = (0, "angle_deg", "torque_Nmm")
     pairs = [("angle_deg", "torque_Nmm", np.pi / 180)]
     pairs += [(f"chuck_u{axis}_mm", f"chuck_F{axis}_N", 1) for axis in "xyz"]

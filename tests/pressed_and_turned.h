@@ -3,15 +3,25 @@
 
 #include <string>
 
-/** The motion of the main scene: pressed 4.9 um until t = 1, then turned by 10
- *  degrees until t = 2. */
+/** A chuck that presses by 4.9 um until t = 1, and what it does then. */
+inline std::string
+pressed_then(const std::string &component, const std::string &value)
+{
+  return "subsection Chuck\n"
+         " subsection Press\n"
+         "  set Value = 0.0049 * min(t, 1)\n"
+         " end\n"
+         " subsection " +
+         component +
+         "\n"
+         "  set Value = " +
+         value +
+         "\n"
+         " end\n"
+         "end\n";
+}
+
+/** The motion of the main scene: it turns by 10 degrees until t = 2. */
 inline const std::string pressed_and_turned =
-  "subsection Chuck\n"
-  " subsection Press\n"
-  "  set Value = 0.0049 * min(t, 1)\n"
-  " end\n"
-  " subsection Rotation z\n"
-  "  set Value = 10 * max(t - 1, 0)\n"
-  " end\n"
-  "end\n";
+  pressed_then("Rotation z", "10 * max(t - 1, 0)");
 #endif

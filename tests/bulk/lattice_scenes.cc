@@ -9,6 +9,7 @@
 
 #include "checks.h"
 #include "coin_scene.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
@@ -23,14 +24,8 @@ subsection Implant
   set Layer grading = 2
   set Element       = spline
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 10 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "10 * max(t - 1, 0)") +
+                         R"(
 subsection Load steps
   set Times              = 0, 1, 1.05, 1.2
   set Steps              = 1, 5, 4

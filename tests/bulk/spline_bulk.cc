@@ -9,6 +9,7 @@
 
 #include "checks.h"
 #include "coin_scene.h"
+#include "pressed_and_turned.h"
 #include "stiffness_at_rest.h"
 
 using namespace Debond;
@@ -104,14 +105,8 @@ end
 subsection Expert
   set Slip direction = trial
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 10 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "10 * max(t - 1, 0)") +
+                               R"(
 subsection Load steps
   set Steps              = 1, 50
   set Residual tolerance = 1e-11

@@ -9,20 +9,9 @@
 #include <string>
 
 #include "cauchy_stress.h"
+#include "checks.h"
 
 using namespace Debond;
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
 
 /** Largest relative deviation of a body's stresses from those that belong to
  *  the displacement @p u with the gradient @p H, both functions of X. */

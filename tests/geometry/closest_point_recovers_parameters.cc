@@ -13,41 +13,12 @@
 #include <string>
 #include <vector>
 
+#include "checks.h"
 #include "rectangle_of.h"
 
 using namespace Debond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << "  " << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
-
-void
-report(const std::string &what, const bool is_true)
-{
-  std::cout << "  " << what << ": " << (is_true ? "yes" : "NO") << std::endl;
-}
-
-
-
-/** Maximum that does not lose a NaN. */
-void
-grow(double &maximum, const double value)
-{
-  if (!(value <= maximum))
-    maximum = value;
-}
-
-
 
 double
 random_number(const double from, const double to)
@@ -131,12 +102,12 @@ recover(const NurbsSurface &surface,
 
 
 void
-report(const Check &check, const double limit)
+report_check(const Check &check, const double limit)
 {
-  report("deviation of parameters", check.parameters, limit);
-  report("deviation of distance", check.distance, 1e-13);
-  report("all converged", check.all_converged);
-  report("all orthogonal", check.all_orthogonal);
+  report("  deviation of parameters", check.parameters, limit);
+  report("  deviation of distance", check.distance, 1e-13);
+  report("  all converged", check.all_converged);
+  report("  all orthogonal", check.all_orthogonal);
 }
 
 
@@ -173,7 +144,7 @@ check_recovery(const std::string  &name,
           recover(surface, net, xi, offset, check);
       std::cout << " including points at " << margin << " from the edges"
                 << std::endl;
-      report(check, 2e-13);
+      report_check(check, 2e-13);
     }
 }
 
@@ -194,7 +165,7 @@ check_facets(const NurbsSurface &surface, const ControlNet &net)
         recover(surface, net, xi, offset, check);
     }
   std::cout << "Deformed disk, degree 1" << std::endl;
-  report(check, 2e-13);
+  report_check(check, 2e-13);
 }
 
 
@@ -217,7 +188,7 @@ check_singular_corners(const NurbsSurface &disk, const double sign)
             recover(disk, disk.control_points(), xi, sign * 0.1, check);
           }
       std::cout << " at " << distance << " from a corner" << std::endl;
-      report(check, 1e-14 / (distance * distance * distance));
+      report_check(check, 1e-14 / (distance * distance * distance));
     }
 }
 
@@ -248,9 +219,9 @@ check_above_corners(const NurbsSurface &disk)
           grow(position, (turn * disk.point(result.xi) - corner).norm());
         }
   std::cout << "Above the corners of the turned disk" << std::endl;
-  report("deviation of positions", position, 1e-7);
-  report("all converged", all_converged);
-  report("all orthogonal", all_orthogonal);
+  report("  deviation of positions", position, 1e-7);
+  report("  all converged", all_converged);
+  report("  all orthogonal", all_orthogonal);
 }
 
 
@@ -291,10 +262,10 @@ check_beyond_rectangle(const unsigned int degree)
         }
   std::cout << "Beyond the edges and corners of the rectangle, degree "
             << degree << std::endl;
-  report("deviation of parameters", parameters, 1e-14);
-  report("deviation of distance", distance, 1e-14);
-  report("all converged", all_converged);
-  report("none orthogonal", none_orthogonal);
+  report("  deviation of parameters", parameters, 1e-14);
+  report("  deviation of distance", distance, 1e-14);
+  report("  all converged", all_converged);
+  report("  none orthogonal", none_orthogonal);
 }
 
 
@@ -319,9 +290,9 @@ check_beyond_disk(const NurbsSurface &disk, const double R)
           none_orthogonal = none_orthogonal && !result.is_orthogonal;
         }
   std::cout << "Beyond the edge of the disk, corners included" << std::endl;
-  report("deviation of distance", distance, 1e-13);
-  report("all converged", all_converged);
-  report("none orthogonal", none_orthogonal);
+  report("  deviation of distance", distance, 1e-13);
+  report("  all converged", all_converged);
+  report("  none orthogonal", none_orthogonal);
 }
 
 
@@ -351,8 +322,8 @@ check_ridge()
           all_good = all_good && result.converged && result.is_orthogonal;
         }
   std::cout << "Points over a ridge" << std::endl;
-  report("deviation of parameters and distance", deviation, 1e-13);
-  report("all converged and orthogonal", all_good);
+  report("  deviation of parameters and distance", deviation, 1e-13);
+  report("  all converged and orthogonal", all_good);
 
   // Below the ridge the nearest points are on the two faces, as in a valley.
   deviation = 0;
@@ -367,8 +338,8 @@ check_ridge()
       all_good = all_good && result.converged && result.is_orthogonal;
     }
   std::cout << "Points in a valley" << std::endl;
-  report("deviation of parameters and distance", deviation, 1e-13);
-  report("all converged and orthogonal", all_good);
+  report("  deviation of parameters and distance", deviation, 1e-13);
+  report("  all converged and orthogonal", all_good);
 }
 
 
@@ -406,7 +377,7 @@ check_against_samples(const std::string  &name,
   std::cout << name << ", 300 random points" << std::endl
             << "  beaten by samples: " << n_beaten << std::endl
             << "  not converged: " << n_failed << std::endl;
-  report("distance and parameters differ", inconsistency, 1e-14);
+  report("  distance and parameters differ", inconsistency, 1e-14);
 }
 
 
@@ -439,8 +410,8 @@ check_that_it_ends()
   // Beyond the centre of curvature the vertex is a maximum of the distance.
   const Vector3d     high(0, 0, 1.8);
   const ClosestPoint from_maximum = closest_point(disk, cap, high, &centre);
-  report("a maximum is left", from_maximum.distance < 1.75);
-  report("and a minimum found", from_maximum.converged);
+  report("  a maximum is left", from_maximum.distance < 1.75);
+  report("  and a minimum found", from_maximum.converged);
 
   // In the centre of curvature the second derivative vanishes, and Newton's
   // method creeps.
@@ -448,14 +419,14 @@ check_that_it_ends()
   const double          radius    = vertex.a1.squaredNorm() / vertex.a11[2];
   const Vector3d        curvature = vertex.y + Vector3d(0, 0, radius);
   const ClosestPoint    focus     = closest_point(disk, cap, curvature);
-  report("centre of curvature: distance",
+  report("  centre of curvature: distance",
          std::abs(focus.distance - radius),
          1e-9);
-  report("converged there", focus.converged);
+  report("  converged there", focus.converged);
 
   const ClosestPoint from_corner =
     closest_point(disk, disk.control_points(), Vector3d(0, 0, 0.2), &corner);
-  report("from a singular corner to the centre",
+  report("  from a singular corner to the centre",
          (from_corner.xi - centre).norm(),
          1e-13);
 
@@ -468,20 +439,20 @@ check_that_it_ends()
     side.a1 - side.a1.dot(side.a2) / side.a2.squaredNorm() * side.a2;
   const Vector3d beyond = side.y + 0.1 * across;
   report(
-    "from a side but for rounding",
+    "  from a side but for rounding",
     closest_point(disk, disk.control_points(), beyond, &by_rounding).distance,
     1e-13);
 
   const ControlNet   point     = ControlNet::Zero(3, disk.n_control_points());
   const ClosestPoint collapsed = closest_point(disk, point, Vector3d(3, 4, 0));
-  report("surface shrunk to a point: distance",
+  report("  surface shrunk to a point: distance",
          std::abs(collapsed.distance - 5.),
          1e-14);
 
   const double       nan = std::nan("");
   const ClosestPoint lost =
     closest_point(disk, cap, Vector3d(nan, 0, 0), &centre);
-  report("NaN does not converge", !lost.converged && !lost.is_orthogonal);
+  report("  NaN does not converge", !lost.converged && !lost.is_orthogonal);
 }
 
 

@@ -10,22 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "checks.h"
+
 using namespace Debond;
 
 using First  = Sacado::Fad::SFad<double, 2>;
 using Number = Sacado::Fad::SFad<First, 2>;
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
 
 /** B-spline i of degree p by the recursion of Cox and de Boor, 0/0 = 0. Knows
  *  nothing of extraction. Right at an inner knot it takes the right span. */

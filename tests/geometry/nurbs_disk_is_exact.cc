@@ -12,21 +12,11 @@
 #include <iostream>
 #include <string>
 
+#include "checks.h"
+
 using namespace Debond;
 
 constexpr double R = 2.7;
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
 
 double
 deviation_of_edges(const NurbsSurface &disk)

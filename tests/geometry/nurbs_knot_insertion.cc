@@ -10,19 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "checks.h"
+
 using namespace Debond;
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
 
 /** Curved, with unequal knots and weights; of size one. */
 NurbsSurface
@@ -76,7 +66,7 @@ check_insertion(const NurbsSurface &surface)
                 << " -> " << refined.n_elements() << " elements, "
                 << surface.n_control_points() << " -> "
                 << refined.n_control_points() << " control points" << std::endl;
-      report("  change of the surface", difference(surface, refined), 1e-14);
+      report("    change of the surface", difference(surface, refined), 1e-14);
     }
 }
 
@@ -94,7 +84,7 @@ check_uniform_refinement()
   const auto n = refined.n_elements_per_direction();
   std::cout << "Uniform refinement: " << n[0] << " x " << n[1] << " elements"
             << std::endl;
-  report("  change of the surface", difference(one, refined), 1e-14);
+  report("    change of the surface", difference(one, refined), 1e-14);
 
   double uneven = 0;
   for (unsigned int e = 0; e < refined.n_elements(); ++e)
@@ -103,7 +93,7 @@ check_uniform_refinement()
       uneven            = std::max(
         uneven, (bounds[1] - bounds[0] - Eigen::Vector2d(1. / 7, 0.25)).norm());
     }
-  report("  deviation of element sizes", uneven, 1e-15);
+  report("    deviation of element sizes", uneven, 1e-15);
 }
 
 
@@ -122,7 +112,7 @@ check_bilinear_interpolant(const NurbsSurface &surface)
   std::cout << "Bilinear interpolant: degree " << flat.degree() << ", "
             << flat.n_elements() << " elements, " << flat.n_control_points()
             << " control points" << std::endl;
-  report("  gap at the knots", gap, 1e-14);
+  report("    gap at the knots", gap, 1e-14);
 }
 
 

@@ -9,21 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "checks.h"
 #include "rectangle_of.h"
 
 using namespace Debond;
-
-void
-report(const std::string &what, const double deviation, const double limit)
-{
-  std::cout << what << " below " << limit << ": ";
-  if (deviation < limit) // false for NaN as well
-    std::cout << "yes" << std::endl;
-  else
-    std::cout << "NO, " << deviation << std::endl;
-}
-
-
 
 template <typename Check>
 void

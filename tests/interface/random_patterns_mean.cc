@@ -12,6 +12,7 @@
 #include <iomanip>
 
 #include "driven_scene.h"
+#include "pressed_and_turned.h"
 
 const std::string scene_text = R"(
 subsection Bone
@@ -23,14 +24,8 @@ end
 subsection Interface
   set Quadrature points = 3
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "max(t - 1, 0)") +
+                               R"(
 subsection Load steps
   set Times = 0, 1, 1.03, 1.06, 1.08, 1.1, 1.2, 1.5, 1.7, 2, 2.4, 11
   set Steps = 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 5

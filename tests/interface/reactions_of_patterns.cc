@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "driven_scene.h"
+#include "pressed_and_turned.h"
 
 const std::string scene_text = R"(
 subsection Implant
@@ -23,14 +24,8 @@ subsection Interface
     set Resolution = quadrature point
   end
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "max(t - 1, 0)") +
+                               R"(
 subsection Load steps
   set Times = 0, 1, 1.05, 1.1, 1.4, 2, 3, 6
   set Steps = 1, 1, 1, 10, 20, 30, 90

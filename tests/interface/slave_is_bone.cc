@@ -4,16 +4,10 @@
 // far it turns.
 
 #include "driven_scene.h"
+#include "pressed_and_turned.h"
 
-const char *const scene_text = R"(
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 10 * max(t - 1, 0)
-  end
-end
+const std::string scene_text =
+  pressed_then("Rotation z", "10 * max(t - 1, 0)") + R"(
 subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 20

@@ -20,6 +20,7 @@
 
 #include "checks.h"
 #include "driven_scene.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
@@ -32,14 +33,8 @@ subsection Implant
   set Material = linear
   set Cells    = 2, 2
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 3 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "3 * max(t - 1, 0)") +
+                         R"(
 subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 6

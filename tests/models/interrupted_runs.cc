@@ -23,6 +23,7 @@
 #include "checks.h"
 #include "coin_scene.h"
 #include "interrupted_run.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
@@ -107,14 +108,8 @@ const std::string base = R"(
 subsection Bone
   set Cells = 8, 8, 2
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 3 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "3 * max(t - 1, 0)") +
+                         R"(
 subsection Load steps
   set Steps = 2, 12
 end
@@ -146,7 +141,7 @@ check(const std::string               &name,
   const std::string whole = "results/whole", parts = "results/parts";
   for (const std::string &directory : {whole, parts})
     std::filesystem::remove_all(directory);
-    std::vector<std::string> overrides;
+  std::vector<std::string> overrides;
   for (const SceneEntry &entry : read_scene_text(changes, name))
     overrides.push_back(entry.full_name() + "=" + entry.value);
   const auto scene_in = [&](const std::string &directory) {

@@ -3,20 +3,15 @@
 // them, and they tend to what NURBS give.
 
 #include "driven_scene.h"
+#include "pressed_and_turned.h"
 
-const char *const scene_text = R"(
+const std::string scene_text = R"(
 subsection Interface
   set Friction law      = coulomb
   set Quadrature points = 10
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 2 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "2 * max(t - 1, 0)") +
+                               R"(
 subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 20

@@ -13,10 +13,11 @@
 
 #include "driven_scene.h"
 #include "mesh_writer.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
-const char *const torsion = R"(
+const std::string torsion = R"(
 subsection Interface
   set Quadrature points = 5
 end
@@ -26,14 +27,8 @@ end
 subsection Implant
   set Material = linear
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 4 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "4 * max(t - 1, 0)") +
+                            R"(
 subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 40
@@ -249,7 +244,7 @@ quadratic()
 void
 ridges()
 {
-  const char *const shear = R"(
+  const std::string shear = R"(
 subsection Bone
   set Material = linear
   set Cells    = 18, 18, 3
@@ -258,20 +253,14 @@ end
 subsection Implant
   set Material = linear
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Translation x
-    set Value = 0.4 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Translation x", "0.4 * max(t - 1, 0)") +
+                            R"(
 subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 100
 end
 )";
-  const auto        rows  = run_scene("ridges", shear);
+  const auto rows = run_scene("ridges", shear);
   report("sliding over ridges: rows are those planned", rows.size() == 102);
   const auto &end = rows.back().chuck_reaction;
   report("friction over the normal force",

@@ -10,22 +10,17 @@
 #include <sys/resource.h>
 
 #include "driven_scene.h"
+#include "pressed_and_turned.h"
 
-const char *const scene_text = R"(
+const std::string scene_text = R"(
 subsection Bone
   set Material = linear
 end
 subsection Implant
   set Material = linear
 end
-subsection Chuck
-  subsection Press
-    set Value = 0.0049 * min(t, 1)
-  end
-  subsection Rotation z
-    set Value = 0.05 * max(t - 1, 0)
-  end
-end
+)" + pressed_then("Rotation z", "0.05 * max(t - 1, 0)") +
+                               R"(
 subsection Load steps
   set Steps = 1, 1
 end

@@ -21,6 +21,14 @@ pressed_then(const std::string &component, const std::string &value)
          "end\n";
 }
 
+/** Both bodies of a material. */
+inline std::string
+bodies_of(const std::string &material)
+{
+  return "subsection Bone\n set Material = " + material +
+         "\nend\nsubsection Implant\n set Material = " + material + "\nend\n";
+}
+
 /** The motion of the main scene: it turns by 10 degrees until t = 2. */
 inline const std::string pressed_and_turned =
   pressed_then("Rotation z", "10 * max(t - 1, 0)");

@@ -101,7 +101,7 @@ def sample_law(law: Callable[[float], float], longest: float, tolerance: float =
 
 
 class Scene:
-    """What is simulated: the file `filename`, or another Scene, or `text` in the language of scenes, or neither: the defaults.
+    """What is simulated: the file `filename`, or another Scene, or `text` in the language of scenes, or only `entries`.
     Scenes can be copied and pickled.
 
     entries: {"Subsection/Entry": value} in addition or instead; numbers, truth values, text, or sequences for lists.
@@ -224,7 +224,7 @@ class Simulation:
 
     drive: {component of the chuck: value at the first time}, "Press", "Translation x" ... "Rotation z", in mm or degrees, N or N mm if
     its Control says so. advance() is told where they go; their Value in the scene does not count. Between rows they go along
-    straight lines, and rows are those of Load steps.
+    straight lines, and rows are those of Load steps, of which the scene says Steps and Adaptive = false.
 
         simulation = debond.Simulation(scene, drive={"Rotation z": 0, "Press": 0})
         while not simulation.is_finished:

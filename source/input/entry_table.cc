@@ -207,19 +207,13 @@ namespace Debond
 
 
   std::string
-  EntryTable::explained(const bool these_are_defaults) const
+  EntryTable::explained(const std::vector<SceneEntry> &values) const
   {
-    std::vector<SceneEntry>  entries = this->entries();
     std::vector<std::string> documentation;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      {
-        const AllowedValues &allowed = rows[i].allowed;
-        documentation.push_back(rows[i].documentation +
-                                (allowed.has_default ? "" : "\nNo default.") +
-                                "\nAllowed: " + allowed.description);
-        if (these_are_defaults && !allowed.has_default)
-          entries[i].value = "";
-      }
-    return scene_text(entries, documentation);
+    for (const Row &row : rows)
+      documentation.push_back(row.documentation +
+                              (row.allowed.has_default ? "" : "\nNo default.") +
+                              "\nAllowed: " + row.allowed.description);
+    return scene_text(values, documentation);
   }
 } // namespace Debond

@@ -152,7 +152,7 @@ namespace Debond
         const bool was_included =
           earlier.size() > files.size() &&
           std::equal(files.begin(), files.end(), earlier.begin());
-        if (!was_included)
+        if (!was_included && !entries[index].value.empty())
           entry.refuse("it is set a second time (first in " +
                        entries[index].place + ")");
         entries[index] = entry;

@@ -57,7 +57,7 @@ namespace Debond
               "mode.");
     table.add("Transition factor",
               parameters.transition_factor,
-              Allowed::number_between(1e-9, 1e6, ""),
+              Allowed::number_between(1e-9, 1e6, "").without_default(),
               "Factor b_s, dimensionless: a point is fully debonded once it "
               "has slid (1 + 2 b_s) a_s. Used where Characteristic slip "
               "distance is.");
@@ -81,7 +81,8 @@ namespace Debond
     // The shorter of the two stages [mm]: the bond holds over a_s and falls
     // over 2 b_s a_s. The largest step along a path of equilibrium is a
     // twentieth of it where the scene does not say.
-    characteristic_distance = a_s * std::min(1., 2. * b_s);
+    characteristic_distance =
+      is_frictionless ? PointHistory::far : a_s * std::min(1., 2. * b_s);
     // of the steepest slope pi / (4 a_s b_s)
     entries_against_fall = "Characteristic slip distance or Transition factor";
   }

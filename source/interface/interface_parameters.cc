@@ -43,7 +43,9 @@ namespace Debond
     table.add(
       "Tangential stiffness",
       tangential_penalty,
-      Allowed::number_between(1e-6, 1e15, "MPa/mm").or_word_for("auto", "0"),
+      Allowed::number_between(1e-6, 1e15, "MPa/mm")
+        .or_word_for("auto", "0")
+        .without_default(),
       "Tangential stiffness eps_t [MPa/mm] of the interface: tangential "
       "traction per elastic displacement along the interface. `auto': as "
       "Normal stiffness.");

@@ -153,7 +153,7 @@ namespace Debond
           {
             (f > 0. ? outside : inside) = fraction;
             double better               = fraction - f / slope;
-                        // as good as it gets where it is the place itself
+            // as good as it gets where it is the place itself
             if (!(better >= inside && better <= outside))
               better = 0.5 * (inside + outside);
             const double moved = std::abs(better - fraction);

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
-#include <utility>
+#include <vector>
+
 
 namespace Debond
 {
@@ -37,17 +38,34 @@ namespace Debond
   Forecast::of_press_fit(const Scene &scene, const LameFit &fit)
   {
     const InterfaceParameters &interface = scene.interface;
-    pressure                             = fit.pressure();
-    error = 0.01 + fit.error * fit.bodies / (fit.bodies + fit.interface);
-    const auto moves = [&](const unsigned int k) {
-      const auto path = scene.sampled_values(k);
-      return path.back() - path.front();
+    const auto                 path      = [&](const unsigned int k) {
+      const std::vector<double> values = scene.sampled_values(k);
+      const bool one_way = std::is_sorted(values.begin(), values.end()) ||
+                           std::is_sorted(values.rbegin(), values.rend());
+      const ChuckComponentParameters &component = scene.chuck.component[k];
+      if (component.loaded || component.stiffness > 0. || !one_way)
+        why = "the chuck is loaded, has springs, or turns back";
+      return values.back() - values.front();
     };
-    const double turned = moves(ChuckComponent::rotation_z) * M_PI / 180.,
-                 pulled = moves(ChuckComponent::translation_z),
+    const double turned = path(ChuckComponent::rotation_z) * M_PI / 180.,
+                 pulled = path(ChuckComponent::translation_z),
                  way    = std::abs(turned) * fit.arm + std::abs(pulled);
-    if (!interface.is_friction_only() || (turned != 0. && pulled != 0.) ||
-        pulled < 0. ||
+    bool moves_else     = turned != 0. && pulled != 0.;
+    for (const unsigned int k : {0, 1, 3, 4})
+      moves_else = moves_else || path(k) != 0.;
+    if (moves_else || pulled < 0. ||
+        (pulled > 0. && scene.implant.shape != BodyShape::pin))
+      why = "the implant is not only turned about its axis, or pulled along it";
+    if (fit.changes)
+      why = "the interference changes, or the bone is shorter than the implant";
+    error = fit.error * fit.bodies / (fit.bodies + fit.interface);
+    if (error > 0.2)
+      why = "ends of the bone or of the implant matter";
+    if (!why.empty())
+      return;
+    pressure = fit.pressure();
+    error += 0.01;
+    if (!interface.is_friction_only() || interface.viscosity > 0. ||
         interface.bonding_of_law().pattern != BondingPatternKind::homogeneous)
       return;
     const double phi_0 = interface.bonding_of_law().initial_bonding;
@@ -59,14 +77,15 @@ namespace Debond
     if (!(slip > 0.))
       return;
     // the distance slid in the end is known where the bond is gone by then
-    const double decay = interface.friction->decay(slip).value;
+    const double decay =
+      phi_0 > 0. ? interface.friction->decay(slip).value : 1.;
     if (turned != 0.)
       {
         T_max = fit.area * fit.arm * most;
         if (decay == 0. || decay == 1.)
           T_end = fit.area * fit.arm * limit(decay * phi_0);
       }
-    else if (scene.implant.shape == BodyShape::pin)
+    else
       F_max = fit.area * most;
   }
 
@@ -162,7 +181,7 @@ namespace Debond
     if (coarser.load_steps.ends.empty())
       for (unsigned int &n : coarser.load_steps.steps)
         n = std::min(n, 100u);
-    const Forecast forecast(std::move(coarser));
+    const Forecast forecast(coarser);
     double         T_max = 0.;
     for (const TorqueRow &row : rows)
       T_max = std::max(T_max, std::abs(row.torque_Nmm));
@@ -193,7 +212,7 @@ namespace Debond
               "interface, to some "
            << std::ceil(1000. * forecast.error) / 10. << " %):\n"
            << "  mean pressure at the end " << forecast.pressure << " MPa";
-    if (forecast.torsional_stiffness > 0.)
+    if (forecast.why.empty() && forecast.torsional_stiffness > 0.)
       text << ", force "
            << forecast.pressure * M_PI * std::pow(scene.implant.radius, 2)
            << " N\n"
@@ -203,7 +222,7 @@ namespace Debond
       text << '\n';
     if (forecast.T_max > 0.) // it turns
       text << "  largest torque " << forecast.T_max << " N mm";
-    if (forecast.T_end > 0.)
+    if (forecast.T_max > 0. && !std::isnan(forecast.T_end))
       text << ", at the end " << forecast.T_end << " N mm";
     if (forecast.T_max > 0.)
       text << '\n';

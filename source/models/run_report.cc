@@ -157,8 +157,8 @@ namespace Debond
       for (const SceneEntry &entry : scene.completed_entries())
         if (const std::string name = entry.full_name();
             name != "Output / Directory" &&
-            (!defaults.has(entry) ||
-             (!defaults.has_default(name) && scene.sets(name))))
+            (defaults.has_default(name) ? !defaults.has(entry) :
+                                          !entry.value.empty()))
           list.push_back({{"entry", name},
                           {"value", entry.value},
                           {"unit", defaults.unit_of(name)}});

@@ -14,7 +14,7 @@ namespace Debond
     const std::vector<std::string> measured{
       "T_max_Nmm",           "theta_max_deg",
       "theta_full_deg",      "T_inf_Nmm",
-      "theta_debonding_deg", "initial_stiffness_Nmm_per_rad",
+      "initial_stiffness_Nmm_per_rad",
       "pressure_MPa",        "pull_max_N",
       "pull_max_mm",         "force_end_N",
       "E_deb_Nmm",           "E_fric_Nmm",

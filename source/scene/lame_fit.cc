@@ -2,6 +2,7 @@
 #include <debond/scene/lame_fit.h>
 #include <debond/scene/scene.h>
 
+#include <algorithm>
 #include <cmath>
 
 // Lame's tube and sphere, with the radial displacements A r + B/r and A r +
@@ -78,35 +79,52 @@ namespace Debond
     if (!scene.interface.has_interference() || bone.modulus ||
         !(is_pin || is_cup))
       return {};
-    LameFit fit;
-    fit.half_interference =
-      0.5 * read_time_function(scene.interface.interference,
-                               implant.characteristic_radius())(
-              scene.load_steps.times.back());
+    LameFit    fit;
+    const auto excess     = read_time_function(scene.interface.interference,
+                                           implant.characteristic_radius());
+    const auto times      = scene.load_steps.planned_times();
+    fit.half_interference = 0.5 * excess(times.back());
+    fit.changes =
+      std::any_of(times.begin(),
+                  times.end(),
+                  [&](const double time) {
+                    return excess(time) != excess(times.back());
+                  }) ||
+      (bone.sleeve_height > 0. && bone.sleeve_height < implant.height);
     fit.interface = 1. / scene.interface.normal_penalty;
-    // Plates keep the length of a tube and let its ends slide; glued to them
-    // they cannot.
-    const bool is_glued = bone.ends == "axial" || bone.ends == "held";
+    double of_bone, of_implant, error_of_bone;
     if (is_pin)
       {
-        fit.bodies =
-          of_tube(bone, !bone.ends.empty(), a, b, bone.support_radius == 0.) +
-          of_tube(implant, false, a, implant.inner_radius, false);
-        fit.area  = 2. * M_PI * a * implant.height;
-        fit.arm   = a;
-        fit.error = is_glued ? 0.5 : bone.ends.empty() ? 0.1 : 0.02;
+        // Plates keep the length of a tube. Without them it is between that and
+        // one that is free to become longer.
+        const auto tube = [&](const bool keeps_length) {
+          return of_tube(bone, keeps_length, a, b, bone.support_radius == 0.);
+        };
+        const bool slides = bone.ends == "slides z";
+        of_bone = slides ? tube(true) : 0.5 * (tube(true) + tube(false));
+        // ends that are glued, and a bottom on a plate, do not widen
+        error_of_bone =
+          bone.ends == "axial" || bone.ends == "held" ||
+              bone.support_radius > 0. ?
+            2. :
+            0.02 + of_bone / std::min(tube(true), tube(false)) - 1.;
+        of_implant = of_tube(implant, false, a, implant.inner_radius, false);
+        fit.area   = 2. * M_PI * a * implant.height;
+        fit.arm    = a;
       }
     else
       {
-        fit.bodies = of_sphere(bone, a, b, true) +
-                     of_sphere(implant, a, implant.inner_radius, false);
-        fit.area  = 2. * M_PI * a * a;
-        fit.arm   = 0.25 * M_PI * a;
-        fit.error = bone.ends == "slides z" ? 0.02 : 0.2;
+        of_bone       = of_sphere(bone, a, b, true);
+        error_of_bone = bone.ends == "slides z" ? 0.02 : 0.2;
+        of_implant    = of_sphere(implant, a, implant.inner_radius, false);
+        fit.area      = 2. * M_PI * a * a;
+        fit.arm       = 0.25 * M_PI * a;
       }
-    // the chuck holds the implant's top
-    if (!implant.is_rigid())
-      fit.error += 0.05;
+    fit.bodies = of_bone + of_implant;
+    // the chuck holds the implant's top, which makes it stiffer
+    fit.error = fit.bodies > 0. ?
+                  (error_of_bone * of_bone + 0.8 * of_implant) / fit.bodies :
+                  0.;
     if (!(fit.half_interference > 0.))
       return {};
     return fit;

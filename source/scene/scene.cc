@@ -151,7 +151,8 @@ namespace Debond
     declare(table);
     std::vector<SceneEntry> entries = table.entries();
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (table.means(entries[i], values[i])) // `auto', or what it stands for
+      if (table.means(entries[i], values[i]) || // `auto', or its value
+          (values[i].empty() && default_entries().has(entries[i])))
         entries[i].value = values[i];
     take_entries(*this, entries);
   }
@@ -192,15 +193,18 @@ namespace Debond
       }
     catch (const InputError &error)
       {
-        // with what the scene does not say it may be none
-        if (const auto *const mistake =
-              dynamic_cast<const EntryError *>(&error);
-            mistake != nullptr && !scene.sets(mistake->entry))
+        // it may be one of what the scene does not say
+        if (dynamic_cast<const EntryError *>(&error) != nullptr)
           scene.require_physics();
         throw scene.with_place(error);
       }
     scene.require_physics();
-    take_entries(scene, table.entries());
+    std::vector<SceneEntry> completed = table.entries();
+    for (SceneEntry &entry : completed) // what is not said stays open
+      if (const std::string full_name = entry.full_name();
+          !table.has_default(full_name) && !scene.sets(full_name))
+        entry.value = "";
+    take_entries(scene, completed);
     scene.note_choices(chosen);
     return scene;
   }
@@ -347,12 +351,12 @@ namespace Debond
   void
   print_parameters(std::ostream &out, const Scene *scene)
   {
-    Scene      defaults = Scene::to_be_read();
-    EntryTable table;
-    defaults.declare(table);
-    if (scene != nullptr)
-      for (const SceneEntry &entry : scene->completed_entries())
-        table.set(entry);
-    out << table.explained(scene == nullptr);
+    const EntryTable       &defaults = default_entries();
+    std::vector<SceneEntry> values =
+      scene != nullptr ? scene->completed_entries() : defaults.entries();
+    for (SceneEntry &entry : values)
+      if (scene == nullptr && !defaults.has_default(entry.full_name()))
+        entry.value = "";
+    out << defaults.explained(values);
   }
 } // namespace Debond

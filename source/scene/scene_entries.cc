@@ -36,25 +36,27 @@ namespace Debond
       table.add(
         "Linear limit angle",
         closed_form.linear_limit,
-        Allowed::number_between(1e-9, 1e6, "deg"),
+        Allowed::number_between(1e-9, 1e6, "deg").without_default(),
         "Angle theta_lin [deg] of the model prescribed angles at which the rim "
         "begins to slide, Eq. (17).");
       table.add("Slip counts from angle",
                 closed_form.full_sliding,
-                Allowed::number_between(1e-9, 1e6, "deg"),
+                Allowed::number_between(1e-9, 1e6, "deg").without_default(),
                 "Angle theta_slide [deg] of the model prescribed angles from "
                 "which on sliding wears the bond, Eq. (49).");
       table.add(
         "Shear modulus",
         closed_form.shear_modulus,
-        Allowed::number_between(1e-6, 1e12, "MPa"),
+        Allowed::number_between(1e-6, 1e12, "MPa").without_default(),
         "Shear modulus G [MPa] of the half space in the model crack, Eq. "
-        "(14). A fit to a torque curve gives values far below those of bone; "
-        "the default is fitted to T_max and theta_max of the paper's data "
-        "set 1.");
+        "(14). A fit to a torque curve gives values far below those of bone: "
+        "40.4, with an Adhesion energy of 22.2 N/m, to T_max and theta_max of "
+        "the paper's data set 1.");
       table.add("Adhesion energy",
                 closed_form.adhesion_energy,
-                Allowed::number_between(1e-12, 1e12, "N/m").or_number(0),
+                Allowed::number_between(1e-12, 1e12, "N/m")
+                  .or_number(0)
+                  .without_default(),
                 "Adhesion energy w_adh [N/m] of the model crack, Eq. (14), "
                 "fitted with Shear modulus.");
       table.leave_subsection();

@@ -464,7 +464,8 @@ namespace Debond
                " % of the Interference: the pressure is some " +
                to_text(fit->pressure(), 3) +
                " MPa, where the bodies alone would have " +
-               to_text(fit->half_interference / fit->bodies, 3) + " MPa");
+               to_text(fit->half_interference / fit->bodies, 3) +
+               " MPa; interfaces between hard faces have 1e4 to 1e6 MPa/mm");
     }
   } // namespace
 

@@ -126,14 +126,25 @@ namespace Debond
     {
       const InterfaceParameters &interface = scene.interface;
       const FrictionLaw         &law       = *interface.friction;
-      const bool                 pulls     = interface.joint()->pulls();
-      const bool                 is_bonded = law.has_bond() || pulls,
-                 rubs                      = !law.is_frictionless,
+      const bool                 pulls     = [&] {
+        try
+          {
+            return interface.joint()->pulls();
+          }
+        catch (const EntryError &) // its numbers do not go together
+          {
+            return interface.law_choice.law == "mixed mode";
+          }
+      }();
+      const bool is_bonded = law.has_bond() || pulls,
+                 rubs      = !law.is_frictionless,
                  has_steps = scene.model == ModelKind::finite_elements,
                  by_slip   = rubs && scene.model != ModelKind::crack &&
                            interface.law_choice.law != "mixed mode",
                  // Largest slip step = auto goes by them, also without a bond
-        wears = by_slip && (is_bonded || scene.load_steps.follow_path);
+        wears =
+          by_slip && (is_bonded || (scene.load_steps.follow_path &&
+                                    scene.load_steps.largest_slip_step == 0.));
       return {{interface.bonding.pattern != BondingPatternKind::homogeneous,
                "other patterns",
                {"Interface / Bonding / Resolution"}},

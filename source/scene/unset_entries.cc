@@ -37,15 +37,16 @@ namespace Debond
         Classic<std::istringstream>        lines(debond_typical_values);
         for (std::string line; std::getline(lines, line);)
           {
-            // quantity, value, unit, for, source, entries
+            // quantity, value, unit, for, source, entries with values
             const std::vector<std::string> field = fields_of(line);
-            for (const std::string &entry : split(field.at(5), ";"))
+            for (const std::string &entry_and_values : split(field.at(5), ";"))
               {
-                std::string &text = result[entry];
-                text += "; " + field[1] +
-                        (field[2] == "1" ? "" : " " + field[2]) + ": " +
-                        field[0] + (field[3].empty() ? "" : ", " + field[3]) +
-                        " (" + field[4] + ")";
+                const std::vector<std::string> entry =
+                  split(entry_and_values, ":");
+                std::string &text = result[entry.front()];
+                text += (text.empty() ? "" : "; ") + entry.back() + " (" +
+                        (field[3].empty() ? "" : field[3] + ", ") + field[4] +
+                        ")";
               }
           }
         return result;
@@ -88,14 +89,18 @@ namespace Debond
     for (SceneEntry entry : default_entries().entries())
       {
         const std::string full_name = entry.full_name();
-        if (default_entries().has_default(full_name) || sets(full_name) ||
-            !lacking_reader(*this, full_name).empty())
+        if ((default_entries().has_default(full_name) &&
+             !(full_name == "Bone / Outer radius" &&
+               bone.shape == BodyShape::sleeve) &&
+             !(full_name == "Implant / Inner radius" &&
+               implant.shape == BodyShape::ring)) ||
+            sets(full_name) || !lacking_reader(*this, full_name).empty())
           continue;
 
         const std::string unit    = default_entries().unit_of(full_name);
         const auto        typical = typical_values().find(full_name);
         entry.value =
-          "  # " + (unit.empty() ? "1" : unit) +
+          "  # " + (unit.empty() ? "" : "[" + unit + "] ") +
           (typical == typical_values().end() ? "" : typical->second);
         missing.push_back(entry);
       }
@@ -103,8 +108,8 @@ namespace Debond
       throw InputError(
         name +
         ": it does not say all that the results depend on. Expected "
-        "values in these lines (include prm/coin.prm is all of the coin of "
-        "Immel et al. 2020):\n" +
+        "values in these lines (of a coin, include prm/coin.prm takes those "
+        "of Immel et al. 2020):\n" +
         scene_text(missing));
   }
 } // namespace Debond

@@ -21,6 +21,7 @@
 #include "checks.h"
 #include "coin_scene.h"
 #include "png_file.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 namespace fs = std::filesystem;
@@ -167,14 +168,8 @@ small_scene(const std::vector<std::string> &overrides = {})
         set File    = results/pattern.png
       end
     end
-    subsection Chuck
-      subsection Press
-        set Value = 0.0049 * min(t, 1)
-      end
-      subsection Rotation z
-        set Value = max(t - 1, 0)
-      end
-    end
+)" + pressed_then("Rotation z", "max(t - 1, 0)") +
+                      R"(
     subsection Load steps
       set Steps = 1, 4
     end

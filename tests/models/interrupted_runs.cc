@@ -226,20 +226,7 @@ int
 main()
 {
   set_up_libraries();
-  const std::string linear = R"(
-    subsection Bone
-      set Material = linear
-    end
-    subsection Implant
-      set Material = linear
-    end)";
-  const std::string rigid  = R"(
-    subsection Bone
-      set Material = rigid
-    end
-    subsection Implant
-      set Material = rigid
-    end)";
+  const std::string linear = bodies_of("linear"), rigid = bodies_of("rigid");
 
   check("Neo-Hookean bodies, with profiles", R"(
     subsection Output

@@ -24,6 +24,7 @@
 #include "checks.h"
 #include "coin_scene.h"
 #include "interrupted_run.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 namespace fs = std::filesystem;
@@ -42,14 +43,8 @@ scene_in(const std::string &place)
     subsection Implant
       set Material = linear
     end
-    subsection Chuck
-      subsection Press
-        set Value = 0.0049 * min(t, 1)
-      end
-      subsection Rotation z
-        set Value = 5 * max(t - 1, 0)
-      end
-    end
+)" + pressed_then("Rotation z", "5 * max(t - 1, 0)") +
+                      R"(
     subsection Load steps
       set Steps = 1, 200
     end

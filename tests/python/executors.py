@@ -132,7 +132,7 @@ def check_run_many():
     alone = good.run().rows["torque_Nmm"]
     entries = {"Model": "foundation", "Chuck/Rotation z/Value": "max(t - 1, 0)",
                "Chuck/Press/Value": "0.005 * min(t, 1)", "Implant/Radius": 2.5, "Interface/Friction law": "coulomb",
-               "Interface/Friction coefficient": 0.4, "Closed form/Pressure": 3, "Closed form/Torsional stiffness": 300}
+               "Interface/Friction coefficient": 0.4, "Interface/Tangential stiffness": "auto", "Closed form/Pressure": 3, "Closed form/Torsional stiffness": 300}
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
         for one in (None, executor):
             found = debond.run_many([good, bad, entries, {"No/Entry": 1}], one)

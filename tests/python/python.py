@@ -241,7 +241,8 @@ def check_defaults():
                "Bone/Size": "12, 12, 5", "Bone/Young modulus": 18000, "Implant/Radius": 2.5, "Implant/Height": 3,
                "Implant/Young modulus": 113000, "Interface/Normal stiffness": 585, "Interface/Bonding/Bonding degree": 1,
                "Interface/Friction coefficient broken": 0.4, "Interface/Friction coefficient unbroken": 0.58,
-               "Interface/Characteristic slip distance": 0.022}
+               "Interface/Characteristic slip distance": 0.022, "Interface/Tangential stiffness": "auto",
+               "Interface/Transition factor": 0.74}
     result = debond.Scene(entries=entries).run()
     check("a scene of entries alone: T_max is 2/3 pi mu_ub p R^3",
           abs(result.summary["T_max_Nmm"] / (2 / 3 * math.pi * 0.58 * result.summary["pressure_MPa"] * 2.5**3) - 1) < 0.01)

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "coin_scene.h"
+#include "pressed_and_turned.h"
 
 namespace
 {
@@ -49,15 +50,8 @@ namespace
                                "  set Steps = 2, 10\n"
                                "  set Adaptive = true\n"
                                "  set Tolerance = 0.3333333333333333\n"
-                               "end\n"
-                               "subsection Chuck\n"
-                               "  subsection Press\n"
-                               "    set Value = 0.0049 * min(t, 1)\n"
-                               "  end\n"
-                               "  subsection Rotation z\n"
-                               "    set Value = 10 * max(t - 1, 0)\n"
-                               "  end\n"
-                               "end\n";
+                               "end\n" +
+                               pressed_and_turned;
 
 
 

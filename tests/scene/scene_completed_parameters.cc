@@ -39,7 +39,7 @@ main()
                               "    set Value = 10 * max(t - 1, 0) # degrees\n"
                               "  end\n"
                               "end\n";
-    // the values of a scene that nothing was said of, which are the coin's, but
+  // the values of a scene that nothing was said of, which are the coin's, but
   // for the entry that is given
   Scene usual;
   usual.complete();
@@ -57,12 +57,31 @@ main()
                                   "Implant/Cells=4, 5, 2",
                                   "Bone/Material=linear",
                                   "Interface/Slave=bone"});
-  const Scene again = coin_scene(scene.completed_parameters);
+  const Scene again = Scene::from_text(scene.completed_parameters);
   report("round trip of the completed parameters",
          again.completed_parameters == scene.completed_parameters);
   report("round trip of the printed parameters",
-         coin_scene(printed(&scene)).completed_parameters ==
+         Scene::from_text(printed(&scene)).completed_parameters ==
            scene.completed_parameters);
+
+  // without default and not said: open, and so when it is read again
+  const Scene rigid = Scene::from_text(
+    "set Accuracy = none\n" + turning +
+    "subsection Bone\n set Material = rigid\n set Size = 9, 9, 3\nend\n"
+    "subsection Implant\n set Material = rigid\n set Radius = 2\n"
+    " set Height = 1\nend\n"
+    "subsection Interface\n set Friction law = frictionless\n"
+    " set Normal stiffness = 100\nend\n");
+  const auto open = entries_of(rigid.completed_parameters);
+  report("what was not said stays open",
+         std::count(open.begin(),
+                    open.end(),
+                    "Interface / Characteristic slip distance = ") == 1 &&
+           std::count(open.begin(), open.end(), "Implant / Radius = 2") == 1 &&
+           Scene::from_text(rigid.completed_parameters).completed_parameters ==
+             rigid.completed_parameters &&
+           Scene::from_text(printed(&rigid)).completed_parameters ==
+             rigid.completed_parameters);
 
   const BodyParameters &implant = again.implant;
   report("cells of the implant",

@@ -13,6 +13,7 @@
 
 #include "checks.h"
 #include "coin_scene.h"
+#include "pressed_and_turned.h"
 #include "softening.h"
 
 using namespace Debond;
@@ -98,14 +99,8 @@ check(const std::string &name,
     subsection Implant
       set Material = linear
     end
-    subsection Chuck
-      subsection Press
-        set Value = 0.0049 * min(t, 1)
-      end
-      subsection Rotation z
-        set Value = max(t - 1, 0)
-      end
-    end)" + changes,
+)" + pressed_then("Rotation z", "max(t - 1, 0)") +
+                 changes,
                {"Chuck/Press/Value=0.0049 * "
                 "min(t, 1) - " +
                 std::to_string(lift / angle) + " * max(t - 1, 0)"});

@@ -12,6 +12,7 @@
 
 #include "checks.h"
 #include "coin_scene.h"
+#include "pressed_and_turned.h"
 
 using namespace Debond;
 
@@ -171,16 +172,9 @@ void
 check(const std::string &name, const std::string &changes)
 {
   std::cout << name << std::endl;
-  const Scene scene = coin_scene(R"(
-    subsection Chuck
-      subsection Press
-        set Value = 0.0049 * min(t, 1)
-      end
-      subsection Rotation z
-        set Value = max(t - 1, 0)
-      end
-    end)" + changes);
-  Run         failing(scene), clean(scene);
+  const Scene scene =
+    coin_scene(pressed_then("Rotation z", "max(t - 1, 0)") + changes);
+  Run failing(scene), clean(scene);
   for (Run *run : {&failing, &clean})
     for (const double time : {1., 1.1})
       if (!run->step(time, false))
@@ -224,13 +218,7 @@ int
 main()
 {
   set_up_libraries();
-  const std::string linear        = R"(
-    subsection Bone
-      set Material = linear
-    end
-    subsection Implant
-      set Material = linear
-    end)";
+  const std::string linear        = bodies_of("linear");
   const std::string bone_is_slave = R"(
     subsection Interface
       set Slave = bone

@@ -90,10 +90,10 @@ namespace Debond
 
 
 
-    /** The same as the text of a scene, with what they mean and allow. Nothing
-     *  is given for what has to be set if @p these_are_defaults. */
+    /** Entries with these @p values as the text of a scene, with what they mean
+     *  and allow. */
     std::string
-    explained(bool these_are_defaults) const;
+    explained(const std::vector<SceneEntry> &values) const;
 
   private:
     struct Row

@@ -17,8 +17,11 @@ namespace Debond
     double area; ///< of the contact face [mm^2]
     double arm;  ///< mean distance of the face from the axis [mm]
     /** Relative error of the compliance of the bodies: how far their ends are
-     *  from what Lame's solutions take them for. */
+     *  from what Lame's solutions take them for. More than 1 where that is not
+     *  known. */
     double error;
+    /** The interference over time, or what lies around the implant along it. */
+    bool changes;
 
     /** [MPa] */
     double

@@ -11,19 +11,28 @@ namespace Debond
   namespace
   {
     /** Members of summary.json that have errors. */
-    const std::vector<std::string> measured{
-      "T_max_Nmm",           "theta_max_deg",
-      "theta_full_deg",      "T_inf_Nmm",
-      "initial_stiffness_Nmm_per_rad",
-      "pressure_MPa",        "pull_max_N",
-      "pull_max_mm",         "force_end_N",
-      "E_deb_Nmm",           "E_fric_Nmm",
-      "W_adh_Nmm",           "w_adh_N_per_m",
-      "w_adh_star_N_per_m",  "D_adh_Nmm",
-      "D_adh_normal_Nmm",    "D_adh_tangential_Nmm",
-      "dissipation_Nmm",     "work_Nmm",
-      "E_start_Nmm",         "E_bulk_Nmm",
-      "E_interface_Nmm"};
+    const std::vector<std::string> measured{"T_max_Nmm",
+                                            "theta_max_deg",
+                                            "theta_full_deg",
+                                            "T_inf_Nmm",
+                                            "initial_stiffness_Nmm_per_rad",
+                                            "pressure_MPa",
+                                            "pull_max_N",
+                                            "pull_max_mm",
+                                            "force_end_N",
+                                            "E_deb_Nmm",
+                                            "E_fric_Nmm",
+                                            "W_adh_Nmm",
+                                            "w_adh_N_per_m",
+                                            "w_adh_star_N_per_m",
+                                            "D_adh_Nmm",
+                                            "D_adh_normal_Nmm",
+                                            "D_adh_tangential_Nmm",
+                                            "dissipation_Nmm",
+                                            "work_Nmm",
+                                            "E_start_Nmm",
+                                            "E_bulk_Nmm",
+                                            "E_interface_Nmm"};
 
 
 
@@ -256,6 +265,11 @@ namespace Debond
       largest = std::max(largest, std::abs(answer.of(row)));
     for (const auto &[time, value] : history)
       largest_of_other = std::max(largest_of_other, std::abs(value));
+    if (largest == 0.)
+      {
+        why_unknown = "the curve has no load";
+        return;
+      }
     if (scene.load_steps.follow_path)
       {
         cells = share * std::abs(largest - largest_of_other) / largest;

@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""Accuracy on scenes that nobody has tuned it for: shapes, stiffnesses, laws, loads, patterns and materials by chance. What is
+true of a scene is a run with more cells, half as many again in each direction for each of --levels, and a tolerance twenty times
+smaller; it is made once and kept in TRUTHS. Prints for each scene the largest errors of the curve, of its largest load and of its
+first slope (in % of the largest load, or of themselves), the estimate, seconds of both runs, and INACCURATE where an error is more
+than --accuracy, UNBOUNDED where it is more than the estimate. With one level a third of the error or so is left in the truth.
+
+    tests/accuracy_by_chance.py build/release/debond TRUTHS.json DIRECTORY --scenes 0..59 [--accuracy 0.01] [--levels 2] [--seconds 300]
+"""
+import argparse
+import bisect
+import csv
+import json
+import math
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+SHAPES = "coin", "coin", "pin", "cap", "ring", "block", "cup", "coin"
+
+
+class Drawn:
+    """A scene: entries, and what it is in words."""
+
+    def __init__(self, seed):
+        self.chance = random.Random(f"accuracy {seed}")
+        self.entries = {"Title": f"scene {seed}"}
+        self.shape = SHAPES[seed % len(SHAPES)]
+        self.in_bore = self.shape in ("pin", "cup")
+        self.R, self.eps, self.E = self.number(1.5, 4), self.log(300, 1e6), self.log(500, 20000)
+        self.soft = 1 / (1 / self.eps + self.R / self.E)  # pressure per depth, roughly
+        self.words = [self.shape, f"{self.eps:.3g} MPa/mm"]
+        for part in (self.add_bodies, self.add_interface, self.add_load):
+            part()
+
+    def number(self, low, high):
+        return float(f"{self.chance.uniform(low, high):.3g}")
+
+    def log(self, low, high):
+        return float(f"{math.exp(self.chance.uniform(math.log(low), math.log(high))):.3g}")
+
+    def set(self, section, **entries):
+        for name, value in entries.items():
+            self.entries[f"{section}/{name.replace('_', ' ')}"] = value
+
+    def of(self, name, default=0):
+        return self.entries.get("Interface/" + name, default)
+
+    def add_bodies(self):
+        R, r = self.R, self.number
+        implant = self.chance.choice((0, 3600, 113000))
+        self.set("Bone", Young_modulus=self.E, Poisson_ratio=r(0.2, 0.4))
+        self.set("Implant", Shape=self.shape, **({"Young_modulus": implant} if implant else {"Material": "rigid"}))
+        self.words.append(f"bone {self.E:.3g} MPa, implant {implant or 'rigid'}")
+        if self.shape == "pin":
+            self.set("Bone", Shape="sleeve", Outer_radius=r(2, 4) * R, Ends=self.chance.choice(("free", "slide", "held")))
+            self.set("Implant", Radius=R, Height=r(1, 3) * R)
+        elif self.shape == "cup":
+            self.set("Bone", Shape="cavity", Outer_radius=r(1.5, 2.5) * R, Ends="slide")
+            self.set("Implant", Radius=R, Height=R)
+        else:
+            self.set("Bone", Size=f"{r(4, 6) * R:.3g}, {r(4, 6) * R:.3g}, {r(1.5, 3) * R:.3g}")
+            if self.shape == "block":
+                self.set("Implant", Size=f"{2 * R:.3g}, {r(1.5, 3) * R:.3g}, {r(0.8, 1.5) * R:.3g}")
+            else:
+                self.set("Implant", Radius=R, Height=r(0.8, 1.5) * R)
+            if self.shape == "cap":
+                self.set("Implant", Cap_radius=r(15, 40) * R)
+            if self.shape == "ring":
+                self.set("Implant", Inner_radius=r(0.3, 0.6) * R)
+
+    def add_interface(self):
+        r = self.number
+        self.set("Interface", Normal_stiffness=self.eps, Tangential_stiffness=self.chance.choice((self.eps, r(0.4, 0.8) * self.eps)))
+        law = self.chance.choice(("coulomb", "bond", "bond", "bond", "adhesive"))
+        self.law = "coulomb" if law == "adhesive" and (self.in_bore or self.shape == "cap") else law
+        self.words.append(self.law)
+        if self.law == "coulomb":
+            self.set("Interface", Friction_law="coulomb", Friction_coefficient=r(0.2, 0.6))
+            return
+        self.set("Interface", Friction_coefficient_broken=r(0.2, 0.5), Friction_coefficient_unbroken=r(0.55, 0.9),
+                 Characteristic_slip_distance=r(0.004, 0.02) * self.R, Transition_factor=r(0.5, 1.5))
+        self.set("Interface/Bonding", Bonding_degree=r(0.6, 1))
+        if self.law == "adhesive":
+            self.set("Interface", Law="adhesive")
+            self.set("Interface/Adhesive", Strength=r(0.5, 3), Gap_at_strength=r(0.002, 0.004) * self.R)
+        pattern = self.chance.choice(("homogeneous", "homogeneous", "disk", "expression", "random"))
+        if self.in_bore or self.shape == "ring" or (self.shape == "block" and pattern == "disk"):
+            return
+        self.set("Interface/Bonding", Pattern=pattern)
+        self.words.append(pattern)
+        if pattern == "disk":
+            self.set("Interface/Bonding", Bonded_fraction=r(0.3, 0.8))
+        if pattern == "expression":
+            self.set("Interface/Bonding", Expression="0.6 + 0.4 * sin(2 * x / R + y / R)")
+        if pattern == "random":
+            self.set("Interface/Bonding", Bonded_fraction=r(0.4, 0.8), Correlation_length=r(0.4, 0.8) * self.R, Seed=self.chance.randrange(1000))
+
+    def add_load(self):
+        """Pressed, or a press fit, then moved until all slides, and what bond there is breaks."""
+        r = self.number
+        self.set("Output", Fields_every="none", Report="false", Console="quiet")
+        p = (r(1e-4, 6e-4) if self.in_bore else r(2e-5, 2e-4)) * self.E
+        mu = self.of("Friction coefficient", self.of("Friction coefficient unbroken"))
+        way = r(4, 10) * mu * p / self.soft + 4 * self.of("Characteristic slip distance")
+        turn = f"{way / self.R * 180 / math.pi:.3g}"
+        if self.in_bore:
+            load = self.chance.choice(("pulled", "turned")) if self.shape == "pin" else "turned"
+            self.set("Interface", Interference=f"{2 * p / self.soft:.3g}")
+            self.set("Load steps", Times="0, 1")
+            self.set("Chuck/" + ("Translation z" if load == "pulled" else "Rotation z"), Value=f"{way if load == 'pulled' else turn} * t")
+        elif self.law == "adhesive" and self.chance.random() < 0.5:
+            load = "pulled"
+            self.set("Load steps", Times="0, 1")
+            self.set("Chuck/Translation z", Value=f"{8 * self.of('Adhesive/Gap at strength') + 4 * self.of('Adhesive/Strength') / self.soft:.3g} * t")
+        else:
+            load = self.chance.choice(("turned", "turned", "sheared", "turned under a force"))
+            if load.endswith("force"):
+                self.set("Chuck/Press", Control="force", Value=f"{p * math.pi * self.R ** 2:.4g} * min(t, 1)")
+            else:
+                depth = (0.6 * self.R) ** 2 / self.entries["Implant/Cap radius"] if self.shape == "cap" else p / self.soft
+                self.set("Chuck/Press", Value=f"{depth:.4g} * min(t, 1)")
+            self.set("Chuck/" + ("Translation x" if load == "sheared" else "Rotation z"),
+                     Value=f"{way if load == 'sheared' else turn} * max(t - 1, 0)")
+        self.words.append(load)
+
+
+class Run:
+    """What a scene came to. Raises RuntimeError if the program does, TimeoutExpired."""
+
+    def __init__(self, debond, entries, directory, seconds):
+        shutil.rmtree(directory, ignore_errors=True)
+        with open(directory + ".prm", "w", encoding="utf-8") as file:
+            for name, value in entries.items():
+                *path, name = name.split("/")
+                file.write("".join(f"subsection {part}\n" for part in path) + f"set {name} = {value}\n" + "end\n" * len(path))
+        begin = time.time()
+        done = subprocess.run([debond, directory + ".prm", "--set", "Output/Directory=" + directory], capture_output=True, text=True, timeout=seconds)
+        if done.returncode:
+            raise RuntimeError(done.stderr.strip().split("\n")[-1][:200])
+        self.seconds, self.directory = time.time() - begin, directory
+        with open(directory + "/summary.json", encoding="utf-8") as file:
+            self.summary = json.load(file)
+        curve = self.summary.get("curve")
+        names = (curve["over"], curve["load"]) if curve else ("angle_deg", "torque_Nmm")
+        with open(directory + "/curve.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.x, self.y = ([float(row[name]) for row in rows] for name in names)
+        self.slope = curve["initial_stiffness"] if curve else self.summary["initial_stiffness_Nmm_per_rad"]
+
+    def at(self, x):
+        """The load at a position that only grows."""
+        k = min(max(bisect.bisect_right(self.x, x), 1), len(self.x) - 1)
+        width = self.x[k] - self.x[k - 1]
+        return self.y[k - 1] + (self.y[k] - self.y[k - 1]) * ((x - self.x[k - 1]) / width if width else 0)
+
+    def entries(self):
+        found, path = {}, []
+        with open(self.directory + "/parameters.prm", encoding="utf-8") as file:
+            for line in (line.split("#")[0].strip() for line in file):
+                if line.startswith("subsection "):
+                    path.append(line[len("subsection "):])
+                elif line == "end":
+                    path.pop()
+                elif line.startswith("set "):
+                    name, value = line[len("set "):].split("=", 1)
+                    found["/".join([*path, name.strip()])] = value.strip()
+        return found
+
+
+def finer(cells, under, factor):
+    """Numbers of cells times a factor; around a rim and an axis by fours, beside a block as many on both sides."""
+    step = 4 if "fitted" in cells or under is None else 1
+    numbers = [math.ceil(factor * int(n) / (step if i == 0 else 1)) * (step if i == 0 else 1) for i, n in enumerate(re.findall(r"\d+", cells))]
+    if under:
+        numbers[:2] = [n + (n - under) % 2 for n in numbers[:2]]
+    return ("fitted " if "fitted" in cells else "") + ", ".join(map(str, numbers))
+
+
+def truth_of(run, options, seed):
+    chosen, factor, more = run.entries(), 1.5 ** options.levels, {}
+    under = chosen["Bone/Cells under implant"]
+    if under != "none":
+        more["Bone/Cells under implant"] = math.ceil(factor * int(under))
+    in_bore = chosen["Bone/Shape"] != "block"
+    more["Bone/Cells"] = finer(chosen["Bone/Cells"], None if in_bore else more.get("Bone/Cells under implant", 0), factor)
+    more["Implant/Cells"] = finer(chosen["Implant/Cells"], None if in_bore else 0, factor)
+    true = Run(options.debond, {**{name: value for name, value in chosen.items() if value}, **more, "Accuracy": "none",
+                                "Load steps/Tolerance": options.accuracy / 20}, f"{options.directory}/truth-{seed}", options.seconds)
+    return {"x": true.x, "y": true.y, "slope": true.slope, "cells": more["Bone/Cells"], "seconds": round(true.seconds, 1)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("debond", "truths", "directory"):
+        parser.add_argument(name)
+    parser.add_argument("--scenes", default="0..59")
+    for name, default in (("--accuracy", 0.01), ("--levels", 2), ("--seconds", 300)):
+        parser.add_argument(name, type=type(default), default=default)
+    options = parser.parse_args()
+    os.makedirs(options.directory, exist_ok=True)
+    truths = {}
+    if os.path.exists(options.truths):
+        with open(options.truths, encoding="utf-8") as file:
+            truths = json.load(file)
+    first, last = map(int, options.scenes.split(".."))
+    for seed in range(first, last + 1):
+        drawn = Drawn(seed)
+        text = f"{seed:3d} {', '.join(drawn.words)}: "
+        try:
+            run = Run(options.debond, {**drawn.entries, "Accuracy": options.accuracy}, f"{options.directory}/scene-{seed}", options.seconds)
+            if str(seed) not in truths:
+                truths[str(seed)] = truth_of(run, options, seed)
+                with open(options.truths, "w", encoding="utf-8") as file:
+                    json.dump(truths, file)
+        except (RuntimeError, KeyError, subprocess.TimeoutExpired) as failure:
+            print(text + f"FAILED, {failure!r:.200}", flush=True)
+            continue
+        true = truths[str(seed)]
+        top = max(map(abs, true["y"]))
+        errors = (max(abs(run.at(x) - y) for x, y in zip(true["x"], true["y"])) / top, abs(max(map(abs, run.y)) / top - 1),
+                  abs(run.slope / true["slope"] - 1) if true["slope"] else 0)
+        said = run.summary.get("error_estimate") or math.nan
+        print(text + "curve %.2f, load %.2f, slope %.2f, said %.2f %%; " % tuple(100 * one for one in (*errors, said))
+              + "INACCURATE " * (max(errors) > options.accuracy) + "UNBOUNDED " * (not max(errors) <= said)
+              + f"{run.seconds:.1f} s, truth {true['seconds']} s" + "".join("; " + warning[:90] for warning in run.summary["warnings"]), flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

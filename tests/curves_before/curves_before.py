@@ -29,7 +29,7 @@ EQUAL_STEPS = ['--set', 'Load steps/Adaptive=false', '--set', 'Load steps/Steps=
 
 # name: scene below prm, more arguments, every n-th row is kept
 SCENES = {
-    'coin_mode3': ('coin_mode3', BEFORE, 20),
+    'coin_mode3': ('paper/main_scene', BEFORE, 20),
     'coin_mode3_fast': ('coin_mode3_fast', BEFORE + EQUAL_STEPS, 2),
     # solved to the last digits
     'coin_mode3_spline': ('coin_mode3_spline', BEFORE + EQUAL_STEPS + ['--set', 'Load steps/Residual tolerance=1e-11'], 2),

@@ -32,7 +32,6 @@ namespace Debond
     if (plan != nullptr && scene.model != ModelKind::finite_elements)
       for (const Warning &warning : scene.warnings())
         *plan << "warning: " << warning.text << '\n';
-
     try
       {
         if (plan != nullptr)

@@ -87,15 +87,6 @@ namespace Debond
 
 
   template <class Law>
-  std::vector<SceneEntry>
-  LawChoice<Law>::entries() const
-  {
-    return entries_of(*make());
-  }
-
-
-
-  template <class Law>
   std::vector<std::string>
   LawChoice<Law>::laws_with(const std::string &full_name) const
   {

@@ -12,19 +12,23 @@ namespace Debond
   namespace
   {
     /** A body with the contact face at the radius a [mm] and another one at c
-     *  (0: there is none) has the radial stress K A - G B/r^n. */
+     *  (0: there is none) has the radial stress E (K A - G B/r^n). */
     double
-    compliance(const double K,
-               const double G,
-               const double n,
-               const double a,
-               const double c,
-               const bool   is_held)
+    compliance(const BodyParameters &body,
+               const double          K,
+               const double          G,
+               const double          n,
+               const double          a,
+               const double          c,
+               const bool            is_held)
     {
+      if (body.is_rigid())
+        return 0.;
       const double q = std::pow(c / a, n);
-      return c == 0. ? a / K :
-             is_held ? a * std::abs(1. - q) / (K + G * q) :
-                       a * (1. + K / G * q) / (K * std::abs(1. - q));
+      return (c == 0. ? a / K :
+              is_held ? a * std::abs(1. - q) / (K + G * q) :
+                        a * (1. + K / G * q) / (K * std::abs(1. - q))) /
+             body.young_modulus;
     }
 
 
@@ -36,16 +40,15 @@ namespace Debond
             const double          c,
             const bool            is_held)
     {
-      const double E = body.young_modulus, nu = body.poisson_ratio;
-      return body.is_rigid() ?
-               0. :
-               compliance(E / (keeps_length ? (1. + nu) * (1. - 2. * nu) :
-                                              1. - nu),
-                          E / (1. + nu),
-                          2.,
-                          a,
-                          c,
-                          is_held);
+      const double nu = body.poisson_ratio;
+      return compliance(body,
+                        1. /
+                          (keeps_length ? (1. + nu) * (1. - 2. * nu) : 1. - nu),
+                        1. / (1. + nu),
+                        2.,
+                        a,
+                        c,
+                        is_held);
     }
 
 
@@ -56,11 +59,9 @@ namespace Debond
               const double          c,
               const bool            is_held)
     {
-      const double E = body.young_modulus, nu = body.poisson_ratio;
-      return body.is_rigid() ?
-               0. :
-               compliance(
-                 E / (1. - 2. * nu), 2. * E / (1. + nu), 3., a, c, is_held);
+      const double nu = body.poisson_ratio;
+      return compliance(
+        body, 1. / (1. - 2. * nu), 2. / (1. + nu), 3., a, c, is_held);
     }
   } // namespace
 

@@ -178,7 +178,6 @@ namespace Debond
             scene.changed_entries.push_back(entry);
         }
 
-
     try
       {
         scene.chuck.read_tables();

@@ -225,7 +225,6 @@ namespace Debond
           continue;
         const std::string name   = entry.full_name(),
                           reader = lacking_reader(scene, name);
-
         if (!reader.empty())
           found.push_back({name,
                            name + " = " + shortened(entry.value) +

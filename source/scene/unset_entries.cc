@@ -96,7 +96,6 @@ namespace Debond
                implant.shape == BodyShape::ring)) ||
             sets(full_name) || !lacking_reader(*this, full_name).empty())
           continue;
-
         const std::string unit    = default_entries().unit_of(full_name);
         const auto        typical = typical_values().find(full_name);
         entry.value =

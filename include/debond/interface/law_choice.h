@@ -60,10 +60,6 @@ namespace Debond
     std::shared_ptr<Law>
     make() const;
 
-    /** Entries of the chosen law, with the subsection `Interface`. */
-    std::vector<SceneEntry>
-    entries() const;
-
     /** Names of the laws that have an entry. */
     std::vector<std::string>
     laws_with(const std::string &full_name) const;

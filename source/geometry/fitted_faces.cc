@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -133,36 +132,60 @@ namespace Debond
 
 
 
-    /** The core of a disk of radius R and the rings around it to its rim, and
-     *  on to the @p outside, if there is one. */
-    NurbsSurface
-    fitted_patches(const double                  R,
-                   const unsigned int            n_around,
-                   const unsigned int            n_rings,
-                   const unsigned int            n_outside,
-                   const std::optional<Outline> &outside)
+    /** Sides of elements around, from one corner to the next. */
+    std::vector<double>
+    breaks_around(const unsigned int n_around)
     {
-      assert(n_around >= 4 && n_around % 4 == 0 && n_rings > 0);
+      assert(n_around >= 4 && n_around % 4 == 0);
+      return graded_breaks(n_around / 4, 1.);
+    }
+
+
+
+    /** Adds the core of a disk of radius R and the rings around it to its rim.
+     */
+    void
+    add_disk(const double               R,
+             const unsigned int         n_around,
+             const unsigned int         n_rings,
+             std::vector<NurbsSurface> &patches)
+    {
       // corners of the core at 0.55 R, its sides bulged by 1.4: half way
       // between straight lines and arcs of a circle. Other values hardly change
       // results.
-      const double        c = 0.55 * R * s, m   = 1.4 * c;
-      const Outline       core(c, c, m, m), rim = circle(R);
-      std::vector<double> around = graded_breaks(n_around / 4, 1.),
-                          inside = graded_breaks(n_rings, rim_exponent);
+      const double        c = 0.55 * R * s, m = 1.4 * c;
+      const Outline       core(c, c, m, m);
+      const auto          around = breaks_around(n_around);
+      std::vector<double> inside = graded_breaks(n_rings, rim_exponent);
       for (double &x : inside)
         x = 1. - x;
       std::reverse(inside.begin(), inside.end());
 
-      std::vector<NurbsSurface> patches{patch_within(core, 0.5, around)};
-      add_ring(core, rim, inside, around, patches);
-      if (outside)
-        add_ring(rim,
-                 *outside,
-                 graded_breaks(n_outside, rim_exponent),
-                 around,
-                 patches);
-      return NurbsSurface::joined(patches);
+      patches.push_back(patch_within(core, 0.5, around));
+      add_ring(core, circle(R), inside, around, patches);
+    }
+
+
+
+    /** Adds the ring between two rims, whose elements shrink towards both. */
+    void
+    add_wall(const double               R,
+             const double               hole,
+             const unsigned int         n_around,
+             const unsigned int         n_rings,
+             std::vector<NurbsSurface> &patches)
+    {
+      std::vector<double> across;
+      for (unsigned int i = 0; i <= n_rings; ++i)
+        {
+          const double s = 2. * i / n_rings - 1.;
+          across.push_back(
+            0.5 +
+            std::copysign(0.5 - 0.5 * std::pow(1. - std::abs(s), rim_exponent),
+                          s));
+        }
+      add_ring(
+        circle(hole), circle(R), across, breaks_around(n_around), patches);
     }
   } // namespace
 
@@ -182,7 +205,22 @@ namespace Debond
                             const unsigned int n_around,
                             const unsigned int n_rings)
   {
-    return fitted_patches(R, n_around, n_rings, 0, {});
+    std::vector<NurbsSurface> patches;
+    add_disk(R, n_around, n_rings, patches);
+    return joined(patches);
+  }
+
+
+
+  NurbsSurface
+  NurbsSurface::fitted_ring(const double       R,
+                            const double       hole,
+                            const unsigned int n_around,
+                            const unsigned int n_rings)
+  {
+    std::vector<NurbsSurface> patches;
+    add_wall(R, hole, n_around, n_rings, patches);
+    return joined(patches);
   }
 
 
@@ -191,14 +229,20 @@ namespace Debond
   NurbsSurface::fitted_rectangle(const double       lx,
                                  const double       ly,
                                  const double       R,
+                                 const double       hole,
                                  const unsigned int n_around,
                                  const unsigned int n_rings,
                                  const unsigned int n_outside)
   {
-    return fitted_patches(R,
-                          n_around,
-                          n_rings,
-                          n_outside,
-                          Outline(0.5 * lx, 0.5 * ly, 0.5 * lx, 0.5 * ly));
+    std::vector<NurbsSurface> patches;
+    add_disk(hole > 0. ? hole : R, n_around, n_rings, patches);
+    if (hole > 0.)
+      add_wall(R, hole, n_around, n_rings, patches);
+    add_ring(circle(R),
+             Outline(0.5 * lx, 0.5 * ly, 0.5 * lx, 0.5 * ly),
+             graded_breaks(n_outside, rim_exponent),
+             breaks_around(n_around),
+             patches);
+    return joined(patches);
   }
 } // namespace Debond

@@ -50,10 +50,7 @@ namespace Debond
     const double turned = path(ChuckComponent::rotation_z) * M_PI / 180.,
                  pulled = path(ChuckComponent::translation_z),
                  way    = std::abs(turned) * fit.arm + std::abs(pulled);
-    bool moves_else     = turned != 0. && pulled != 0.;
-    for (const unsigned int k : {0, 1, 3, 4})
-      moves_else = moves_else || path(k) != 0.;
-    if (moves_else || pulled < 0. ||
+    if ((turned != 0. && pulled != 0.) || !scene.keeps_axis() || pulled < 0. ||
         (pulled > 0. && scene.implant.shape != BodyShape::pin))
       why = "the implant is not only turned about its axis, or pulled along it";
     if (fit.changes)

@@ -207,12 +207,17 @@ namespace Debond
     compare(scene, rows, coarser, share);
     find_members(summary, other, share);
     total = cells + steps + bodies;
-    for (const char *const name :
-         {"T_max_Nmm", "initial_stiffness_Nmm_per_rad"})
-      if (const double error =
-            number_in(members, std::string(name) + "_error") /
-            std::abs(number_in(summary, name));
-          scene.output.axes.is_torsion() && error > total)
+    // of the curve's largest value and of its first slope
+    const bool is_torsion = scene.output.axes.is_torsion();
+    const auto none       = nlohmann::ordered_json::object();
+    const auto values     = is_torsion ? summary : summary.value("curve", none),
+               errors     = is_torsion ? members : members.value("curve", none);
+    for (const std::string name :
+         {is_torsion ? "T_max_Nmm" : "largest",
+          is_torsion ? "initial_stiffness_Nmm_per_rad" : "initial_stiffness"})
+      if (const double error = number_in(errors, name + "_error") /
+                               std::abs(number_in(values, name));
+          error > total)
         total = error;
   }
 

@@ -36,9 +36,12 @@ namespace Debond
   {
     using Change = unsigned int (*)(unsigned int n);
 
-    /** Cells of a body as its entry says them, each number changed. */
+    /** Cells of a body as its entry says them, each number changed; with
+     *  @p keeps_around but those around an axis. */
     std::string
-    cells_of(const BodyParameters &body, const Change change)
+    cells_of(const BodyParameters &body,
+             const Change          change,
+             const bool            keeps_around)
     {
       std::vector<unsigned int> n(body.cells.begin(), body.cells.end());
       if (body.is_fitted())
@@ -54,7 +57,7 @@ namespace Debond
                          fewest   = body.is_fitted() ? 4 :
                                     is_round         ? 8 :
                                                        2;
-      for (unsigned int k = 0; k < n.size(); ++k)
+      for (unsigned int k = keeps_around ? 1 : 0; k < n.size(); ++k)
         if (under > 0 && k < 2) // as many on both sides
           n[k] = change(under) + 2 * change((n[k] - under) / 2);
         else if (k == 0 || (k == 1 && !is_round))
@@ -75,7 +78,8 @@ namespace Debond
       for (const auto &[section, body] : {std::pair("Bone", &scene.bone),
                                           std::pair("Implant", &scene.implant)})
         if (body->shape != BodyShape::file)
-          changes[section + std::string(" / Cells")] = cells_of(*body, change);
+          changes[section + std::string(" / Cells")] =
+            cells_of(*body, change, scene.is_axisymmetric());
       if (const unsigned int under = scene.bone.cells_under_implant; under > 0)
         changes["Bone / Cells under implant"] = std::to_string(change(under));
       return changes;
@@ -187,8 +191,11 @@ namespace Debond
   std::string
   cells_in_words(const Scene &scene)
   {
-    const auto same = [](const unsigned int n) { return n; };
-    return cells_of(scene.bone, same) + " and " + cells_of(scene.implant, same);
+    const auto same = [](const BodyParameters &body) {
+      return cells_of(
+        body, [](const unsigned int n) { return n; }, true);
+    };
+    return same(scene.bone) + " and " + same(scene.implant);
   }
 
 

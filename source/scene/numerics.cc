@@ -31,6 +31,18 @@ namespace Debond
         return set == scene.entries.rend() || set->value == "auto";
       }
 
+      /** Whether the cells of a body, set or chosen, follow its rim. */
+      bool
+      is_fitted(const std::string &section, const BodyParameters &body) const
+      {
+        const auto chosen =
+          std::find_if(entries.begin(), entries.end(), [&](const auto &entry) {
+            return entry.full_name() == section + " / Cells";
+          });
+        return chosen == entries.end() ? body.is_fitted() :
+                                         chosen->value[0] == 'f';
+      }
+
       void
       choose(const std::string &section,
              const std::string &name,
@@ -78,7 +90,8 @@ namespace Debond
       return scene.bone.shape == BodyShape::block &&
              !scene.has_soft_interface() &&
              (scene.implant.shape == BodyShape::coin ||
-              scene.implant.shape == BodyShape::cap) &&
+              scene.implant.shape == BodyShape::cap ||
+              scene.implant.shape == BodyShape::ring) &&
              is_spline_or_open("Bone", scene.bone) &&
              is_spline_or_open("Implant", scene.implant) &&
              choice.is_open("Bone", "Cells") &&
@@ -141,49 +154,65 @@ namespace Debond
           choice.choose("Bone", "Cells", entry_text(lattice_below(scene)));
           choice.choose("Bone", "Layer grading", "2");
         }
-      const bool is_disk = is_fitted && implant.shape == BodyShape::coin &&
-                           implant.contact_surface == SurfaceKind::nurbs;
+      const bool is_ring     = implant.shape == BodyShape::ring,
+                 follows_rim = is_fitted &&
+                               (implant.shape == BodyShape::coin || is_ring) &&
+                               implant.contact_surface == SurfaceKind::nurbs;
       choice.choose("Implant",
                     "Cells",
-                    is_disk                           ? "fitted 8, 3, 3" :
-                    implant.shape == BodyShape::ring  ? "12, 2, 2" :
+                    follows_rim                       ? "fitted 8, 3, 3" :
+                    is_ring                           ? "12, 2, 2" :
                     implant.shape == BodyShape::block ? "6, 3" :
                                                         "3, 3");
       choice.choose("Bone", "Element", "spline");
       choice.choose("Implant",
                     "Element",
-                    implant.shape == BodyShape::ring ? "quadratic" : "spline");
+                    is_ring && !choice.is_fitted("Implant", implant) ?
+                      "quadratic" :
+                      "spline");
     }
 
 
 
     /** Cells about an axis, of quadratic elements, as wide as half the radius
-     *  along it; six to a pitch. */
+     *  along it, or smaller towards its ends; six to a pitch. */
     void
     choose_about_axis(Choice &choice)
     {
       const BodyParameters &implant = choice.scene.implant,
                            &bone    = choice.scene.bone;
       const bool is_screw           = implant.shape == BodyShape::screw,
-                 is_cup             = implant.shape == BodyShape::cup;
-      const auto along              = [&](const double height) {
+                 is_cup             = implant.shape == BodyShape::cup,
+                 is_stiff = !choice.scene.has_soft_interface() && !is_screw;
+      const auto along    = [&](const double height) {
+        const double n = std::min(2. * height / implant.radius, 8.);
         return static_cast<unsigned int>(
-          is_cup   ? 2. :
-                       is_screw ? std::ceil(6. * height / implant.pitch) :
-                                  std::ceil(std::min(2. * height / implant.radius, 8.)));
+          std::ceil(is_screw ? 6. * height / implant.pitch :
+                    is_cup   ? 2. :
+                    is_stiff ? n + 2. :
+                               n));
       };
-      const std::string around = is_screw ? "16, " : "12, ";
+      const std::string around = is_screw                       ? "16, " :
+                                 choice.scene.is_axisymmetric() ? "8, " :
+                                                                  "12, ";
       const double      in_bone =
         bone.sleeve_height > 0. ? bone.sleeve_height : implant.height;
       choice.choose("Bone",
                     "Cells",
-                    around + (is_screw ? "2, " : "3, ") +
+                    around +
+                      (is_screw ? "2, " :
+                       is_stiff ? "4, " :
+                                  "3, ") +
                       std::to_string(along(in_bone)));
       choice.choose("Implant",
                     "Cells",
                     around + "1, " + std::to_string(along(implant.height)));
       for (const std::string section : {"Bone", "Implant"})
-        choice.choose(section, "Element", "quadratic");
+        {
+          choice.choose(section, "Element", "quadratic");
+          if (!is_screw)
+            choice.choose(section, "Layer grading", is_stiff ? "2.5" : "1.5");
+        }
     }
 
 
@@ -250,6 +279,37 @@ namespace Debond
                     to_text(std::max(0.25 * scene.accuracy, 1e-7), 6));
     }
   } // namespace
+
+
+
+  bool
+  Scene::keeps_axis() const
+  {
+    for (const unsigned int k : {0, 1, 3, 4})
+      {
+        const std::vector<double> values = sampled_values(k);
+        if (std::any_of(values.begin(), values.end(), [](const double value) {
+              return value != 0.;
+            }))
+          return false;
+      }
+    return true;
+  }
+
+
+
+  bool
+  Scene::is_axisymmetric() const
+  {
+    const auto is_round = [](const BodyParameters &body) {
+      return body.shape != BodyShape::block && body.shape != BodyShape::file &&
+             body.shape != BodyShape::screw;
+    };
+    return is_round(bone) && is_round(implant) && !bone.modulus &&
+           interface.bonding_of_law().pattern ==
+             BondingPatternKind::homogeneous &&
+           keeps_axis();
+  }
 
 
 

@@ -243,7 +243,8 @@ namespace Debond
     interface.friction         = create_friction_law(interface.friction_choice);
     implant.make_mesh("Implant", implant);
     bone.make_mesh("Bone", implant);
-    bone.rim = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
+    for (BodyParameters *const body : {&bone, &implant})
+      body->take_rim(implant);
     bone.read_modulus(implant.characteristic_radius());
   }
 

@@ -280,11 +280,12 @@ namespace Debond
     check_faces(bone, implant);
     check_input_files(*this);
     if (bone.is_fitted() && implant.shape != BodyShape::coin &&
-        implant.shape != BodyShape::cap)
-      throw EntryError("Bone / Cells",
-                       "cells are fitted to the rim of a coin or a cap, and "
-                       "Implant / Shape is " +
-                         implant.shape_row().name + ": expected numbers");
+        implant.shape != BodyShape::cap && implant.shape != BodyShape::ring)
+      throw EntryError(
+        "Bone / Cells",
+        "cells are fitted to the rim of a coin, cap or ring, and "
+        "Implant / Shape is " +
+          implant.shape_row().name + ": expected numbers");
     interface.check(implant);
     check_bonding_pattern(interface.bonding,
                           implant,

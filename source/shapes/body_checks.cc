@@ -97,9 +97,11 @@ namespace Debond
                        const EntryCheck     &refuse)
     {
       const std::string fitted = "cells that are fitted to the rim ";
-      refuse(body.shape != (is_bone ? BodyShape::block : BodyShape::coin),
+      refuse(is_bone ?
+               body.shape != BodyShape::block :
+               body.shape != BodyShape::coin && body.shape != BodyShape::ring,
              "Cells",
-             fitted + "are those of a " + (is_bone ? "block" : "coin") +
+             fitted + "are those of a " + (is_bone ? "block" : "coin or ring") +
                ": expected numbers");
       refuse(body.fitted_cells[0] % 4 != 0,
              "Cells",
@@ -208,7 +210,7 @@ namespace Debond
                              const std::string    &reason,
                              const EntryCheck     &refuse)
   {
-    const bool is_fitted = body.shape_row().is_lattice();
+    const bool is_fitted = body.is_fitted() || body.shape_row().is_lattice();
     for (const auto &[is_set, entry, expected] :
          {std::make_tuple(!is_fitted && body.element == ElementKind::spline,
                           "Element",

@@ -175,9 +175,10 @@ namespace Debond
       "radially and along its axis. Of a cavity: around (8, 12, ...), radially "
       "and along a meridian, from a square at the bottom, a quarter of those "
       "around across, to the rim. `fitted a, i, o, l': cells of a block that "
-      "follow the rim of a coin or cap: a (a multiple of 4) around it, i from "
-      "a square core to the rim, o from there to the sides, in l layers, "
-      "smaller towards the rim and the contact face. `fitted': 16, 6, 10, 9. "
+      "follow the rim of a coin, cap or ring: a (a multiple of 4) around it, i "
+      "from a square core to the rim, o from there to the sides, in l layers, "
+      "smaller towards the rim and the contact face; below a ring i from the "
+      "core to its hole, and i across its wall. `fitted': 16, 6, 10, 9. "
       "`auto': as Accuracy needs, without it 15, 15, 2. "
       "Fitted cells are for Element = spline and save time where the interface "
       "is stiff.");
@@ -236,7 +237,7 @@ namespace Debond
       "coin or cap n across the disk and m along the axis. Of a pin and a "
       "ring: around (8 or more, of a solid one 8, 12, ...), radially and "
       "along the axis. Of a cup: as Bone / Cells of a cavity. `fitted a, i, l': "
-      "cells of a coin that follow its rim, as Bone / Cells. `fitted': 12, "
+      "cells of a coin or a ring that follow its rim, as Bone / Cells. `fitted': 12, "
       "5, 5. `auto': as Accuracy needs, without it 3, 2.");
     declare_material(table, false);
     table.leave_subsection();

@@ -59,8 +59,9 @@ namespace Debond
         for (const unsigned int j : {place[1] / 2, (place[1] + 1) / 2})
           for (const unsigned int k : {place[2] / 2, (place[2] + 1) / 2})
             {
-              sum += face.at(
-                {2. * i / across - 1., 2. * j / across - 1., k / deep - 1.});
+              sum += face.at({2. * i / across - 1.,
+                              2. * j / across - 1.,
+                              -std::pow(1. - k / deep, bowl.grading)});
               ++n;
             }
       return face.between(sum / n, place[2] == 2 * deep);

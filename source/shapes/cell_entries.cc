@@ -44,7 +44,7 @@ namespace Debond
     allowed = allowed.or_word_for("auto", is_bone ? "15, 15, 2" : "3, 2");
     const auto set = [=](const std::string &entry) {
       const std::string text = allowed.without_words(entry);
-      fitted_cells = {{0, 0, 0}};
+      fitted_cells           = {{0, 0, 0}};
       std::vector<unsigned int> numbers;
       if (!is_word(text))
         {
@@ -59,8 +59,7 @@ namespace Debond
       else
         read_entry(rest_of(text), numbers);
       fitted_cells = {{numbers[0], numbers[1], is_bone ? numbers[2] : 0}};
-      const unsigned int across = std::ceil(std::sqrt(n_fitted_elements()));
-      cells                     = {{across, across, numbers.back()}};
+      cells[2]     = numbers.back(); // take_rim() has the others
     };
     std::vector<unsigned int> numbers{cells.begin(), cells.end()};
     if (is_fitted())

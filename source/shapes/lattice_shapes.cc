@@ -103,6 +103,7 @@ namespace Debond
         return NurbsSurface::fitted_rectangle(body.size[0],
                                               body.size[1],
                                               margin * body.rim[0],
+                                              body.hole / margin,
                                               body.fitted_cells[0],
                                               body.fitted_cells[1],
                                               body.fitted_cells[2]);
@@ -113,6 +114,17 @@ namespace Debond
         KnotVector::from_breakpoints(2, body.lateral_fractions(1)));
     }
   } // namespace
+
+
+
+  void
+  BodyParameters::take_rim(const BodyParameters &implant)
+  {
+    rim  = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
+    hole = implant.shape == BodyShape::ring ? implant.inner_radius : 0.;
+    if (is_fitted())
+      cells[0] = cells[1] = std::ceil(std::sqrt(n_fitted_elements()));
+  }
 
 
 

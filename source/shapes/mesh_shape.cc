@@ -72,7 +72,7 @@ namespace Debond
                          " / Mesh file");
     if (shape == BodyShape::file)
       mesh = read_mesh_file(mesh_file, section + " / Mesh file");
-    if (shape_row().cells == nullptr)
+    if (shape_row().cells == nullptr || is_fitted())
       return;
     check(section);
     mesh = MeshBuilder(shape_row().cells(*this, implant),

@@ -10,14 +10,25 @@ namespace Debond
     using Point = dealii::Point<3>;
     using Place = Block::Place;
 
+    // A side that touches ends at both ends, where the pressure changes most.
+    // Waves of a thread are as long everywhere.
     double
     height_at(const RevolvedBody &body, const unsigned int along)
     {
       const unsigned int n = body.cells[2];
+      if (body.contact == RevolvedBody::Part::bottom)
+        return body.lowest +
+               body.height * part_of_way(along, n, true, body.grading);
+      const auto from_middle = [&](const unsigned int layer) { // -1/2 to 1/2
+        const double x = layer - 0.5 * n;
+        return std::copysign(0.5 - 0.5 * std::pow(1. - std::abs(2. * x / n),
+                                                  body.is_round ? body.grading :
+                                                                  1.),
+                             x);
+      };
       return body.lowest +
-             body.height * (body.contact == RevolvedBody::Part::bottom ?
-                              part_of_way(along, n, true, body.grading) :
-                              along / (2. * n));
+             body.height * (0.5 + 0.5 * (from_middle(along / 2) +
+                                         from_middle((along + 1) / 2)));
     }
 
 

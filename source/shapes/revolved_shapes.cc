@@ -1,3 +1,4 @@
+#include <debond/geometry/nurbs_surface.h>
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/shapes/revolved_mesh.h>
@@ -150,12 +151,22 @@ namespace Debond
     void
     check_ring(const BodyParameters &body, const EntryCheck &refuse)
     {
-      check_cells_around(body, false, refuse);
+      if (!body.is_fitted())
+        check_cells_around(body, false, refuse);
       refuse(!(body.inner_radius > 0. && body.inner_radius < body.radius),
              "Inner radius",
              "a ring has a hole: expected more than 0 and less than its "
              "Radius, " +
                to_text(body.radius) + " mm (without a hole it is a coin)");
+    }
+
+    NurbsSurface
+    face_of_ring(const BodyParameters &body)
+    {
+      return NurbsSurface::fitted_ring(body.radius,
+                                       body.inner_radius,
+                                       body.fitted_cells[0],
+                                       body.fitted_cells[1]);
     }
 
     StoredMesh
@@ -295,7 +306,7 @@ namespace Debond
        {"Radius", "Inner radius", "Height"},
        ring,
        check_ring,
-       nullptr,
+       face_of_ring,
        cells_of_ring},
       {"sleeve",
        "a tube around the side of the implant, given by Outer radius and "

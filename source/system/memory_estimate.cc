@@ -83,7 +83,7 @@ namespace Debond
                                   model.implant.width(d) / model.bone.width(d)),
                        under =
                          model.bone.is_fitted() ?
-                           model.bone.cells_across_fitted_disk() :
+                           std::sqrt(model.bone.n_fitted_elements(true)) :
                          model.bone.cells_under_implant > 0 ?
                            model.bone.cells_under_implant :
                            n * std::pow(width, 1. / model.bone.lateral_grading);

@@ -1,7 +1,7 @@
-// Faces whose elements follow the rim of a disk. The disk and the rectangle
-// around it are exact, and the rim is a line of elements' sides. Functions have
-// continuous gradients inside patches, and values across their borders.
-// Projections find their points from anywhere.
+// Faces whose elements follow the rim of a disk or a ring. These and the
+// rectangle around them are exact, and rims are lines of elements' sides.
+// Functions have continuous gradients inside patches, and values across their
+// borders. Projections find their points from anywhere.
 
 #include <debond/geometry/surface_geometry.h>
 
@@ -15,7 +15,7 @@
 
 using namespace Debond;
 
-constexpr double       R = 2.7, lx = 12.5, ly = 10.;
+constexpr double       R = 2.7, hole = 1.1, lx = 12.5, ly = 10.;
 constexpr unsigned int n_around = 12, n_rings = 4, n_outside = 5;
 
 struct Measures
@@ -73,7 +73,9 @@ sides(const NurbsSurface &face)
         Eigen::Vector2d xi = face.element_bounds(e)[0];
         xi[side / 2] += side % 2;
         xi[1 - side / 2] += 0.3;
-        result.on_rim += std::abs(face.point(xi).norm() / R - 1.) < 1e-14;
+        const double r = face.point(xi).norm();
+        result.on_rim +=
+          std::min(std::abs(r / R - 1.), std::abs(r / hole - 1.)) < 1e-14;
         result.border += face.is_border(e, side);
         if (face.is_border(e, side))
           continue;
@@ -95,13 +97,13 @@ sides(const NurbsSurface &face)
 }
 
 double
-error_of_projections(const NurbsSurface &face)
+error_of_projections(const NurbsSurface &face, const double innermost)
 {
   double          result = 0.;
   Eigen::Vector2d guess  = face.element_bounds(0)[0];
   for (unsigned int k = 0; k < 300; ++k)
     {
-      const double r     = R * std::sqrt(random_number(0., 0.999)),
+      const double r     = R * std::sqrt(random_number(innermost, 0.999)),
                    angle = random_number(0., 2. * M_PI);
       const Eigen::Vector3d x(r * std::cos(angle), r * std::sin(angle), 0.1);
       const ClosestPoint    closest =
@@ -118,28 +120,36 @@ void
 check(const std::string  &name,
       const NurbsSurface &face,
       const double        area,
-      const unsigned int  n_outside)
+      const unsigned int  n_outside,
+      const unsigned int  n_walls  = 1,
+      const bool          has_core = true)
 {
   std::cout << name << std::endl;
   const Measures found = measures(face);
   report("  area", std::abs(found.area / area - 1.), 1e-13);
   report("  normals", found.tilt, 1e-13);
   constexpr unsigned int n    = n_around / 4;
+  const unsigned int     core = has_core ? n : 0, rims = has_core ? n_walls : 2;
   const Sides            seen = sides(face);
   const auto inside_of        = [](const unsigned int i, const unsigned int j) {
     return 2 * (i * (j - 1) + j * (i - 1)); // from both sides
   };
   report("  elements",
-         face.n_elements() == n * n + n_around * (n_rings + n_outside));
-  report("  sides on the rim, each seen from both sides",
-         seen.on_rim == (n_outside > 0 ? 2 : 1) * n_around);
-  report("  sides at the border", seen.border == n_around);
+         face.n_elements() ==
+           core * core + n_around * (n_walls * n_rings + n_outside));
+  report("  sides on rims, each seen from both sides",
+         seen.on_rim == (n_outside > 0 ? 2 : 1) * rims * n_around);
+  report("  sides at the border", seen.border == (has_core ? 1 : 2) * n_around);
   report("  smooth across all sides inside patches",
-         seen.smooth == inside_of(n, n) + 4 * inside_of(n, n_rings) +
+         seen.smooth == (has_core ? inside_of(n, n) : 0) +
+                          4 * n_walls * inside_of(n, n_rings) +
                           (n_outside > 0 ? 4 * inside_of(n, n_outside) : 0));
   report("  and across no others", seen.smooth < seen.shared);
   report("  functions are continuous", seen.jump, 1e-13);
-  report("  projections of random points", error_of_projections(face), 1e-12);
+  report("  projections of random points",
+         error_of_projections(face,
+                              has_core ? 0. : std::pow(1.001 * hole / R, 2)),
+         1e-12);
 }
 
 int
@@ -149,8 +159,21 @@ main()
         NurbsSurface::fitted_disk(R, n_around, n_rings),
         M_PI * R * R,
         0);
-  check("rectangle",
-        NurbsSurface::fitted_rectangle(lx, ly, R, n_around, n_rings, n_outside),
+  check(
+    "rectangle",
+    NurbsSurface::fitted_rectangle(lx, ly, R, 0., n_around, n_rings, n_outside),
+    lx * ly,
+    n_outside);
+  check("ring",
+        NurbsSurface::fitted_ring(R, hole, n_around, n_rings),
+        M_PI * (R * R - hole * hole),
+        0,
+        1,
+        false);
+  check("rectangle around a ring",
+        NurbsSurface::fitted_rectangle(
+          lx, ly, R, hole, n_around, n_rings, n_outside),
         lx * ly,
-        n_outside);
+        n_outside,
+        2);
 }

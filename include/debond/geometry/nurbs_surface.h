@@ -273,12 +273,22 @@ namespace Debond
      *  core and the diagonals; none is singular. */
     static NurbsSurface
     fitted_disk(double R, unsigned int n_around, unsigned int n_rings);
+    /** A ring with a hole of radius @p hole, without a core; its elements
+     *  shrink towards both rims. */
+    static NurbsSurface
+    fitted_ring(double       R,
+                double       hole,
+                unsigned int n_around,
+                unsigned int n_rings);
     /** Such a disk with @p n_outside rings more, to the sides of the rectangle
-     *  [-lx/2,lx/2] x [-ly/2,ly/2]; they shrink towards the rim. */
+     *  [-lx/2,lx/2] x [-ly/2,ly/2]; they shrink towards the rim. With a
+     *  @p hole it is a disk of this radius and, around it, a ring with
+     *  @p n_rings as well. */
     static NurbsSurface
     fitted_rectangle(double       lx,
                      double       ly,
                      double       R,
+                     double       hole,
                      unsigned int n_around,
                      unsigned int n_rings,
                      unsigned int n_outside);

@@ -131,6 +131,12 @@ namespace Debond
      *  its bodies. */
     bool
     asks_bodies() const;
+    /** Whether the implant only turns about its axis and moves along it, and
+     *  whether all else is round, too, and the same all around. */
+    bool
+    keeps_axis() const;
+    bool
+    is_axisymmetric() const;
     /** Whether the interface, and not the bodies, says what the pressure is: it
      *  has no peak at the rim then. */
     bool

@@ -94,20 +94,20 @@ namespace Debond
     std::vector<std::string> entries;
     BodyGeometry (*geometry)(const BodyParameters &body);
     void (*check)(const BodyParameters &body, const EntryCheck &refuse);
-    /** Contact face of cells in columns, of cells[0] x cells[1] elements. It
-     *  touches z = 0 with its centre at the origin; the far face is flat, at
-     *  the distance of the thickness. Null of other cells. */
+    /** Contact face of cells in columns, of cells[0] x cells[1] elements or
+     *  fitted. It touches z = 0 with its centre at the origin; the far face is
+     *  flat, at the distance of the thickness. Null of other cells. */
     NurbsSurface (*contact_face)(const BodyParameters &body);
     /** Cells about the z axis, those around, radial and along; a bone may have
-     *  a bore for the @p implant. Throws EntryError. Null of cells in columns
-     *  and of files. */
+     *  a bore for the @p implant. Throws EntryError. Null of shapes whose
+     *  cells are in columns, and of files. */
     StoredMesh (*cells)(const BodyParameters &body,
                         const BodyParameters &implant) = nullptr;
 
     bool
     is_lattice() const
     {
-      return contact_face != nullptr;
+      return contact_face && !cells;
     }
   };
 

@@ -85,15 +85,17 @@ namespace Debond
      *  n, n, m). Around, radial and along of pin and sleeve. */
     std::array<unsigned int, 3> cells{{15, 15, 2}};
     /** Of `Cells = fitted ...`: around the rim, from the core to it, from it to
-     *  the sides of a bone. `cells` are those of a lattice with as many. */
+     *  the sides of a bone; below a ring as many inside its hole as in its
+     *  wall. `cells` are those of a lattice with as many. */
     std::array<unsigned int, 3> fitted_cells{{0, 0, 0}};
     ElementKind                 element         = ElementKind::trilinear;
     double                      lateral_grading = 1; ///< bone
     unsigned int cells_under_implant            = 0; ///< bone; 0: as they come
     double       rim_grading                    = 1.5; ///< of such a bone
-    /** Half the widths of the implant [mm], which such a bone heeds; no entry.
-     */
+    /** Half the widths of the implant and the radius of its hole [mm], which
+     *  such a bone heeds; no entries. */
     std::array<double, 2> rim{{0, 0}};
+    double                hole          = 0;
     double                layer_grading = 1;
     bool                  coarser_below = false; ///< than the first layer
     Material              material      = Material::neo_hookean;
@@ -132,22 +134,20 @@ namespace Debond
     {
       return is_fitted() ? 2. : layer_grading;
     }
-    /** Elements of the contact face, of cells that are fitted. */
+    /** Elements of the contact face, of cells that are fitted; @p inside: of
+     *  those within the rim. */
     double
-    n_fitted_elements() const
+    n_fitted_elements(const bool inside = false) const
     {
       const double quarter = fitted_cells[0] / 4,
-                   rings   = double(fitted_cells[1]) + fitted_cells[2];
-      return quarter * (quarter + 4. * rings);
+                   core    = shape == BodyShape::ring ? 0. : quarter,
+                   parts   = core > 0. && hole > 0. ? 2. : 1.,
+                   outside = inside ? 0. : fitted_cells[2];
+      return quarter * (core + 4. * (parts * fitted_cells[1] + outside));
     }
-    /** Cells across the disk within the rim, of cells that are fitted: of a
-     *  square grid with as many. */
-    double
-    cells_across_fitted_disk() const
-    {
-      const double quarter = fitted_cells[0] / 4;
-      return std::sqrt(quarter * (quarter + 4. * fitted_cells[1]));
-    }
+    /** Notes the rims of an implant, which may be the body itself. */
+    void
+    take_rim(const BodyParameters &implant);
     const ShapeRow &
     shape_row() const;
     BodyGeometry
@@ -190,7 +190,7 @@ namespace Debond
     cell_width(const unsigned int direction) const
     {
       return is_fitted() ? 2. * (rim[0] > 0. ? rim[0] : radius) /
-                             cells_across_fitted_disk() :
+                             std::sqrt(n_fitted_elements(true)) :
              cells_under_implant > 0 ?
                            2. * rim[direction] / cells_under_implant :
                            width(direction) / lattice_of_cells()[direction];

@@ -29,7 +29,8 @@ namespace Debond
     Part                        contact = Part::outer;
     /** Whether its faces consist of circles, which are exact then. */
     bool is_round = true;
-    /** Layers of cells from the contact face, as `Layer grading' says. */
+    /** Layers of cells from the contact face, and from the ends of a side, as
+     *  `Layer grading' says. */
     double grading = 1;
     /** What the parts of the boundary are in the files of meshes, empty: free.
      */

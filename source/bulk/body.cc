@@ -61,7 +61,8 @@ namespace Debond
         !linearise(at_rest))
       throw EntryError(
         std::string(body_mesh.side() == Side::bone ? "Bone" : "Implant") +
-          (body_mesh.has_lattice() ? " / Cells" : " / Mesh file"),
+          (body_mesh.parameters().shape == BodyShape::file ? " / Mesh file" :
+                                                             " / Cells"),
         "the stiffness of this body is not positive definite: its cells are "
         "too thin, or its Poisson ratio is too close to 0.5");
   }

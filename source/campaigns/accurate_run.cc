@@ -76,6 +76,37 @@ namespace Debond
 
 
 
+    /** The run itself. Its failure is the result, if it @p may_fail. */
+    std::string
+    run_finer(const Scene              &scene,
+              std::shared_ptr<BodyPair> bodies,
+              const Checkpoint         *checkpoint,
+              const bool                may_fail)
+    {
+      const auto result = [may_fail](const std::runtime_error &why) {
+        return may_fail ? why.what() : throw;
+      };
+      try
+        {
+          DebondingProblem(scene, std::move(bodies)).run(checkpoint);
+        }
+      catch (const WriteError &)
+        {
+          throw;
+        }
+      catch (const RunError &why)
+        {
+          return result(why);
+        }
+      catch (const InputError &why)
+        {
+          return result(why);
+        }
+      return "";
+    }
+
+
+
     double
     n_unknowns(const Scene &scene)
     {
@@ -174,6 +205,8 @@ namespace Debond
     if (goes_on && checkpoint->state.empty())
       checkpoint = nullptr;
     const ResultDirectory directory = open_directory(scene, goes_on);
+    std::optional<Scene>  before;  // which the scene has more cells than
+    std::string           failure; // of a scene with more cells
     for (bool has_coarser = false;; checkpoint = nullptr)
       {
         const auto coarser = coarser_scene(scene);
@@ -190,7 +223,18 @@ namespace Debond
               directory.write_parameters(scene.completed_parameters);
               continue;
             }
-        DebondingProblem(scene, std::move(bodies)).run(checkpoint);
+        const std::string why =
+          run_finer(scene, std::move(bodies), checkpoint, bool(before));
+        if (!why.empty())
+          {
+            failure = "more cells, " + cells_in_words(scene) + ", fail: " + why;
+            say(scene, failure + "\nAgain with " + cells_in_words(*before));
+            scene       = *before;
+            before      = {};
+            has_coarser = false;
+            directory.write_parameters(scene.completed_parameters);
+            continue;
+          }
         Ranks::meet(); // the first one has written
         const auto   summary = summary_in(directory.path());
         const double error   = number_in(summary, "error_estimate");
@@ -201,6 +245,8 @@ namespace Debond
                       "made coarser");
         if (!(error > scene.accuracy))
           return;
+        if (!failure.empty())
+          return add_warning(directory, summary, failure);
         std::string text;
         const auto  finer = next_scene(scene, summary, text);
         if (!finer)
@@ -213,6 +259,7 @@ namespace Debond
         if (has_coarser)
           keep_as_coarser(directory.path(), next->completed_parameters);
         directory.write_parameters(finer->completed_parameters);
+        before = scene;
         scene  = *finer;
         bodies = nullptr;
       }

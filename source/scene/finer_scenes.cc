@@ -71,6 +71,8 @@ namespace Debond
 
     using Changes = std::map<std::string, std::string>;
 
+    // Where each element has a bond of its own, other cells would have another
+    // bond.
     Changes
     changed_cells(const Scene &scene, const Change change)
     {
@@ -82,6 +84,11 @@ namespace Debond
             cells_of(*body, change, scene.is_axisymmetric());
       if (const unsigned int under = scene.bone.cells_under_implant; under > 0)
         changes["Bone / Cells under implant"] = std::to_string(change(under));
+      const BondingParameters &bonding = scene.interface.bonding;
+      if (bonding.pattern == BondingPatternKind::file ||
+          (bonding.pattern == BondingPatternKind::random &&
+           bonding.correlation_length == 0.))
+        changes.erase("Implant / Cells");
       return changes;
     }
 
@@ -117,18 +124,10 @@ namespace Debond
 
 
 
-  // Where each element has a bond of its own, other cells would have another
-  // bond.
   std::optional<Scene>
   coarser_scene(const Scene &scene)
   {
     Changes changes = changed_cells(scene, fewer_cells);
-
-    const BondingParameters &bonding = scene.interface.bonding;
-    if (bonding.pattern == BondingPatternKind::file ||
-        (bonding.pattern == BondingPatternKind::random &&
-         bonding.correlation_length == 0.))
-      changes.erase("Implant / Cells");
     if (changes.empty())
       return {};
     if (scene.load_steps.rows_are_planned())

@@ -188,7 +188,7 @@ namespace Debond
         const double n = std::min(2. * height / implant.radius, 8.);
         return static_cast<unsigned int>(
           std::ceil(is_screw ? 6. * height / implant.pitch :
-                    is_cup   ? 2. :
+                    is_cup   ? 3. :
                     is_stiff ? n + 2. :
                                n));
       };
@@ -211,7 +211,11 @@ namespace Debond
         {
           choice.choose(section, "Element", "quadratic");
           if (!is_screw)
-            choice.choose(section, "Layer grading", is_stiff ? "2.5" : "1.5");
+            choice.choose(section,
+                          "Layer grading",
+                          !is_stiff ? "1.5" :
+                          is_cup    ? "2" : // more makes cells too thin
+                                      "2.5");
         }
     }
 

@@ -420,7 +420,9 @@ namespace Debond
       "Grading exponent g of the layers of cells behind the contact face: of n "
       "layers over the length H, layer k ends at the distance H (k/n)^g from "
       "the contact face. 1: equal layers. More than 1: thinner layers at the "
-      "interface, where the stress changes most. `auto': as Accuracy needs, "
+      "interface, where the stress changes most. Cells along the side of a "
+      "pin, taper or sleeve become smaller towards its ends in the same way, "
+      "those of a cup or cavity towards the rim. `auto': as Accuracy needs, "
       "without it 1.");
     table.add(
       "Coarser below",

@@ -25,7 +25,7 @@ from .errors import Interrupted, RunError, SceneError
 from .files import csv_text, heeding, say, write_whole
 from .page import write_page_if_possible
 from .page_campaigns import names_of
-from .page_data import CHANCE, number, rows_file
+from .page_data import CHANCE, number, rows_file, with_error
 from .variants import is_varied, variants_of
 
 
@@ -45,7 +45,10 @@ class Variant:
         self.directory = f"{study.directory}/variant-{number:03d}"
         self.n_repetitions = study.n_repetitions
         entries = _debond.changed(variant.entries, [*OF_THE_STUDY, "Output/Directory=" + self.directory], "--set")
-        self.scene = _debond.Scene(entries, study.name, ALONE)
+        try:
+            self.scene = _debond.Scene(entries, study.name, ALONE)
+        except SceneError as error:  # what one variant reads, another may not
+            raise SceneError(f"{self.name}: {error}" if self.values else str(error)) from None
         self.summary, self.repetitions, self.failure, self.done, self.is_compared = {}, [], "", False, False
         self.has_other_references, self.other_program = False, ""
 
@@ -100,8 +103,9 @@ class Variant:
 
     def outcome(self):
         if self.done:
-            torque, seconds = (number(self.summary.get(name)) for name in ("T_max_Nmm", "wall_seconds"))
-            return f"T_max {torque:.4g} N mm, {seconds:.4g} s"
+            torque, error, seconds = (number(self.summary.get(name)) for name in ("T_max_Nmm", "T_max_Nmm_error", "wall_seconds"))
+            text = with_error(torque, error, "N mm").replace("±", "+-") if error > 0 else f"{torque:.4g} N mm"
+            return f"T_max {text}, {seconds:.4g} s"
         return self.failure if self.failure.startswith("interrupted") else "failed: " + self.failure
 
 

@@ -35,6 +35,16 @@ OF_THE_STUDY = ("Study/Reference variant=none", "Study/Factors varied at once=al
 ALONE = _debond.Team(0)
 
 
+def _scene(entries, file, variant):
+    """A mistake without a place is one of what this variant reads, and others may not."""
+    try:
+        return _debond.Scene(entries, file, ALONE)
+    except SceneError as error:
+        if error.place is None:
+            error.args = (f"{variant}: {error}",)
+        raise
+
+
 class Variant:
     """A variant, and what its directory holds. summary: that of its last run, but seconds are medians over all repetitions; done:
     whether all runs are there; failure: why it failed."""
@@ -45,10 +55,7 @@ class Variant:
         self.directory = f"{study.directory}/variant-{number:03d}"
         self.n_repetitions = study.n_repetitions
         entries = _debond.changed(variant.entries, [*OF_THE_STUDY, "Output/Directory=" + self.directory], "--set")
-        try:
-            self.scene = _debond.Scene(entries, study.name, ALONE)
-        except SceneError as error:  # what one variant reads, another may not
-            raise SceneError(f"{self.name}: {error}" if self.values else str(error)) from None
+        self.scene = _scene(entries, study.name, self.name)
         self.summary, self.repetitions, self.failure, self.done, self.is_compared = {}, [], "", False, False
         self.has_other_references, self.other_program = False, ""
 
@@ -180,7 +187,7 @@ class Study:
                 entry.refuse("a study gives each variant a directory of its own below this one: expected one value")
         self.name = name
         variants = variants_of(entries)
-        first = _debond.Scene(variants[0].entries, name, ALONE)
+        first = _scene(variants[0].entries, name, "variant-001")
         values = first.values
         self.directory, self.reports = values["Output / Directory"], values["Output / Report"] == "true"
         self.say = heeding(values["Output / Console"], say)

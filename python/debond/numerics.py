@@ -53,6 +53,13 @@ def _are_open(scene):
     return "Load steps / " + ("Tolerance" if scene.values["Load steps / Adaptive"] == "true" else "Steps") in _chosen(scene)
 
 
+def _finer(scene):
+    """None if cells are not left to Accuracy, or carry a bond each, which others would not have."""
+    bond = "Interface / Bonding / "
+    pattern, length = (scene.values[bond + name] for name in ("Pattern", "Correlation length"))
+    return None if pattern == "file" or (pattern == "random" and float(length) == 0) else scene.finer
+
+
 def _in_words(scenes):
     cells = (" and ".join(scene.values[body + " / Cells"] for body in ("Bone", "Implant")) for scene in scenes.values())
     return "; ".join(dict.fromkeys(cells))
@@ -84,10 +91,10 @@ def _why_not(fit, meshes, finer, n_runs):
         return "the scene sets them"
     values, n = fit.problem.values, max(scene.n_unknowns for scene in finer.values())
     growth = max((scene.n_unknowns / max(1, mesh.n_unknowns))**1.5 for scene, mesh in zip(finer.values(), meshes.values()))
-    minutes = growth * (time.time() - fit.clock) / 60 * n_runs / RUNS
-    text = f"a fit with {_in_words(finer)} cells, {n:.6g} unknowns, some {growth * (time.time() - fit.clock) / 60:.2g} minutes, is beyond Expert / "
-    return (text + "Largest number of unknowns" if n > float(values["Expert / Largest number of unknowns"]) else
-            text + "Largest minutes" if minutes > float(values["Expert / Largest minutes"]) else "")
+    minutes = growth * (time.time() - fit.clock) / 60
+    beyond = [name for name, one in (("Largest number of unknowns", n), ("Largest minutes", minutes * n_runs / RUNS))
+              if one > float(values["Expert / " + name])]
+    return f"a fit with {_in_words(finer)} cells, {n:.6g} unknowns, some {minutes:.2g} minutes, is beyond Expert / {beyond[0]}" if beyond else ""
 
 
 def refined(fit, say=lambda text: None):
@@ -103,7 +110,7 @@ def refined(fit, say=lambda text: None):
         if any(e.values[name] != text for e in done for name, text in _of_bodies(meshes)[e.number].items()):
             fit = fit.again(_of_bodies(meshes), 0)
         for _ in range(ROUNDS):
-            finer, steps = {number: mesh.finer for number, mesh in meshes.items()}, _error_of_steps(fit)
+            finer, steps = {number: _finer(mesh) for number, mesh in meshes.items()}, _error_of_steps(fit)
             cells = None if _why_not(fit, meshes, finer, 1) else _error_of_cells(fit, meshes, finer)
             fit.errors, why_not = [error for error in (cells, steps) if error], _why_not(fit, meshes, finer, RUNS)
             taken = [error for error, is_open in ((cells, not why_not), (steps, steps_are_open))
@@ -114,7 +121,7 @@ def refined(fit, say=lambda text: None):
                 say(f"{one.entry} changed {one.change} move {one.unknown} by {one.half_widths:.2g} half widths of its interval: "
                     "the fit goes on with them")
             meshes = finer if cells in taken else meshes
-            halvings = math.ceil(math.log(steps.half_widths / LARGEST, 4)) if steps in taken else 0  # they are of second order
+            halvings = math.ceil(math.log(steps.half_widths / LARGEST, 3)) if steps in taken else 0  # of nearly second order
             fit = fit.again(_of_bodies(meshes), sum(error.of_curve for error in taken), halvings)
     except (RunError, SceneError) as error:
         fit.warnings.append(f"finer cells or steps failed: {error}")

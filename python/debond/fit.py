@@ -155,7 +155,8 @@ class Misfit:
 
 def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=lambda text: None) -> "Fit":
     """Finds the unknowns <<...>> of a scene from its measured curves: those of its `Output / Reference curve`, of each variant
-    if entries hold several values.
+    if entries hold several values. Cells and steps that these leave to Accuracy become finer where they move the answer too far
+    (numerics.py).
 
     scene: a Scene or the name of a file. executor: of concurrent.futures, which makes the runs: processes here, or those of
     mpi4py.futures or Dask. threads: without an executor. evaluations: a file that keeps the runs, so that a fit that was
@@ -172,7 +173,7 @@ def fit_problem(problem, say=lambda text: None) -> "Fit":
 
 class Fit:
     """A fit that is done. `values`, `lower`, `upper`: of the unknowns `names`, in the units of their entries; an end that is
-    infinite cannot be told."""
+    infinite cannot be told. `errors`: what finer cells and steps would change."""
 
     def __init__(self, problem, optima, closed, clock):
         self.problem, self.optima, self.closed, self.clock = problem, optima, closed, clock

@@ -1088,9 +1088,16 @@ def tutorial_poor():
 
 
 @numbers('minutes')
+def tutorial_no_offset():
+    result = fit(TUTORIAL_FIT, 'Calibration/Torque offset=0')
+    assert not any('does not fit' in text for text in result['warnings'])
+    return with_interval(result['unknowns']['mu_b'])
+
+
+@numbers('minutes')
 def tutorial_rigid_machine():
     result = fit(TUTORIAL_FIT, 'Calibration/Machine compliance=0')
-    assert not any('does not fit' in text for text in result['warnings'])
+    assert 1e-8 < result['curves'][0]['chance_of_F'] < 1e-6
     return with_interval(result['unknowns']['eps_t'])
 
 
@@ -1101,9 +1108,10 @@ def changed_fit(*changes):
 
 
 @numbers('minutes')
-def tutorial_wide_steps():
-    change = changed_fit('Load steps/Tolerance=3e-4')
-    return '`a_s` of this fit would be %s too large and `b_s` %s too small' % (change['a_s'], change['b_s'])
+def tutorial_finer():
+    rows = fit(TUTORIAL_FIT)['taken_as_known'][:2]
+    assert [row['entry'] for row in rows] == ['Cells', 'Steps']
+    return '%.1g %%' % max(abs(effect) for row in rows for effect in row['effect'].values())
 
 
 @numbers('minutes')

@@ -8,9 +8,11 @@
 #include <debond/models/varying_curve.h>
 #include <debond/output/curve_comparison.h>
 #include <debond/output/result_files.h>
+#include <debond/scene/finer_scenes.h>
 #include <debond/support/input_error.h>
 #include <debond/support/provenance.h>
 #include <debond/support/runtime.h>
+#include <debond/system/memory_estimate.h>
 
 #include <nlohmann/json.hpp>
 #include <pybind11/functional.h>
@@ -276,6 +278,16 @@ namespace
                                  values[entry.full_name()] = entry.value;
                                return values;
                              })
+      .def_property_readonly("finer", finer_scene) // None if it sets its cells
+      .def_property_readonly(
+        "n_unknowns",
+        [](const Scene &s) {
+          double sum = 0.;
+          for (const auto *const body : {&s.bone, &s.implant})
+            if (!body->is_rigid())
+              sum += n_unknowns_of(*body);
+          return sum;
+        })
       .def_property_readonly("sample_times",
                              [](const Scene &s) {
                                return s.load_steps.sample_times();

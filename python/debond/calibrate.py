@@ -135,6 +135,9 @@ def lines_of(done):
         correlated = f", neighbours correlated by {m.noise.correlation:.3g}" if not m.noise.is_white else ""
         yield (f"{m.name}: e_mp {100 * m.e_mp:.3g} %, e_rel {100 * m.e_rel:.3g} %, residuals {100 * m.rms:.3g} % of the "
                f"largest value; noise {m.noise.name}{correlated}")
+    for row in done.taken_as_known[:len(done.errors)]:
+        effects = ", ".join(f"{name} by {effect:+.2g} %" for name, effect in row["effect"].items() if effect)
+        yield f"{row['entry']}, {row['value']}: changed {row['change']} they would move " + (effects or "nothing")
     if len(done.optima) > 1:
         first, second = done.optima[:2]
         values = ", ".join(f"{name} = {value:.5g}" for name, value in zip(done.names, second.values))

@@ -75,6 +75,11 @@ class Experiment:
         self.why_no_closed_form = self._find_why_no_closed_form()
         self._centre, self._settled = None, {}
 
+    def changed(self, entries):
+        """The same with other entries, {full name: text}. Raises SceneError."""
+        given = _debond.changed(self.given, [f"{name}={text}" for name, text in entries.items()])
+        return Experiment(self.unknowns, self.number, given, self.name, self.measured)
+
     @property
     def is_done(self):
         return bool(self.measured.file)
@@ -91,11 +96,11 @@ class Experiment:
         rig = {name: float(every["Calibration / " + name]) for names in _RIG.values() for name in names}
         return tuple((name, text) for name, text in entries.items() if not name.startswith("Calibration / ")), rig
 
-    def warnings(self, values):
-        """What the scene says of these values of the unknowns."""
+    def scene_of(self, values):
+        """The scene with these values of the unknowns."""
         entries = _debond.with_values(self.given, self.unknowns.entries(self.number, values))
         return _debond.Scene(_debond.changed(entries, ["Output/Reference curve=none", "Output/Reference columns=auto"]), self.name,
-                             _debond.Team(0)).warnings
+                             _debond.Team(0))
 
     def halved(self, steps):
         """Ends of steps half as wide as these, which adaptive ones have chosen, or as those planned."""

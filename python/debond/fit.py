@@ -8,6 +8,7 @@
     fit.save("output/fit")   # calibration.json, fit.csv, fitted.prm, report.html ...
 """
 
+import dataclasses
 import functools
 import time
 from dataclasses import dataclass
@@ -18,7 +19,7 @@ from scipy import stats
 
 import _debond
 
-from . import intervals, known, noise
+from . import intervals, known, noise, numerics
 from .errors import RunError, path_of
 from .executors import check_workers
 from .experiment import Experiment
@@ -80,7 +81,7 @@ def _follow(problem, starts, closed):
     return problem.distinct([_end_from(problem, start, closed) for start in starts])
 
 
-def _end_from(problem, first, closed):
+def _end_from(problem, first, closed, near=None):
     """The closed form has the stiffness of the place that it was made exact at, runs the steps that are right where they were
     chosen: from there on to the end, and again from that until it stays."""
     start, place, end, searched = first, problem.unknowns.starts if closed else first, None, problem.unknowns.to_search
@@ -89,7 +90,7 @@ def _end_from(problem, first, closed):
             (problem.settle if closed else problem.choose_steps)(place)
         except RunError as error:
             return end or Optimum(first, why=str(error))
-        before, end = end, problem.minimise(start, closed, near=end)
+        before, end = end, problem.minimise(start, closed, near=end or near)
         if end.why and before:  # of the closed form the edge of what can be computed has moved over it
             return problem.minimise(first, True) if closed else before
         moved = abs(searched(end.values) - searched(start)) / intervals.sizes_of(problem.unknowns, start)
@@ -154,7 +155,8 @@ class Misfit:
 
 def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=lambda text: None) -> "Fit":
     """Finds the unknowns <<...>> of a scene from its measured curves: those of its `Output / Reference curve`, of each variant
-    if entries hold several values.
+    if entries hold several values. Cells and steps that these leave to Accuracy become finer where they move the answer too far
+    (numerics.py).
 
     scene: a Scene or the name of a file. executor: of concurrent.futures, which makes the runs: processes here, or those of
     mpi4py.futures or Dask. threads: without an executor. evaluations: a file that keeps the runs, so that a fit that was
@@ -166,15 +168,16 @@ def fit(scene, *, executor=None, threads: int = 1, evaluations: str = None, say=
 def fit_problem(problem, say=lambda text: None) -> "Fit":
     """The same of what has been read."""
     clock = time.time()
-    return Fit(problem, *find_optima(problem, say), clock)
+    return numerics.refined(Fit(problem, *find_optima(problem, say), clock), say)
 
 
 class Fit:
     """A fit that is done. `values`, `lower`, `upper`: of the unknowns `names`, in the units of their entries; an end that is
-    infinite cannot be told."""
+    infinite cannot be told. `errors`: what finer cells and steps would change."""
 
     def __init__(self, problem, optima, closed, clock):
-        self.problem, self.optima, self.closed = problem, optima, closed
+        self.problem, self.optima, self.closed, self.clock = problem, optima, closed, clock
+        self.errors: List[numerics.Error] = []  # of cells and steps that are known
         self.warnings: List[str] = list(dict.fromkeys(text for experiment in problem.experiments for text in experiment.remarks))
         best = optima[0]
         if closed:
@@ -194,6 +197,18 @@ class Fit:
         self._warn()
         self.candidates = self._judge_candidates()
         self.seconds = time.time() - clock
+
+    def again(self, entries, change, halvings=0):
+        """The same fit with other entries of experiments, {number: {entry: text}}, and halved steps, from where curves that `change` (N)
+        would move it. Raises RunError."""
+        before = self.problem
+        problem = Problem(before.unknowns, [e.changed(entries.get(e.number, {})) for e in before.experiments], before.runs)
+        problem.halvings = before.halvings + halvings
+        starts = [dataclasses.replace(one, values=before.moved(one, change)) for one in self.optima]
+        optima = problem.distinct([_end_from(problem, one.values, False, one) for one in starts])
+        if not optima:
+            raise RunError(problem.runs.last_failure)
+        return Fit(problem, optima, False, self.clock)
 
     @functools.cached_property
     def taken_as_known(self):
@@ -270,19 +285,19 @@ class Fit:
         self._warn_of_noise()
         self._warn_of_search()
 
-    def _shift(self, curve):
+    def shift(self, curve, least=1e-6):
         """By how much the unknowns would change, over the half widths of their intervals, if the curve differed by this (N). Those of
-        exact data are of rounding: a change of a millionth of the value is none."""
+        exact data are of rounding: no half width counts as less than this part of the value."""
         told, result = self.told, numpy.zeros(len(self.values))
         free = numpy.flatnonzero(told.free & numpy.isfinite(told.half_widths))
-        widths = numpy.maximum(told.half_widths, 1e-6 * intervals.sizes_of(self.problem.unknowns, self.values))[free]
+        widths = numpy.maximum(told.half_widths, least * intervals.sizes_of(self.problem.unknowns, self.values))[free]
         result[free] = numpy.linalg.lstsq(told.derivatives[:, free], self.problem.weights * curve, rcond=1e-7)[0] / widths
         return result
 
     def _warn_of_search(self):
         problem, told, names = self.problem, self.told, self.names
         if problem.measure == "least squares" and self._best.converged:
-            shift = self._shift(problem.measured - self._best.curve)
+            shift = self.shift(problem.measured - self._best.curve)
             for j in numpy.flatnonzero(abs(shift) > 0.5):
                 self.warnings.append(f"the search for {names[j]} stalled: the slopes of the curve ask for a step of {abs(shift[j]):.2g} half widths "
                                      "of its interval, along which the curve comes no closer. A curve that jumps does that, as that of a soft "
@@ -295,7 +310,7 @@ class Fit:
             finer = problem.finer_curve(self.values)
         except RunError:
             finer = None
-        shift = numpy.zeros(len(names)) if finer is None else self._shift(finer - self._best.curve)
+        shift = numpy.zeros(len(names)) if finer is None else self.shift(finer - self._best.curve)
         for j in numpy.flatnonzero(abs(shift) > 0.5):
             self.warnings.append(f"steps of the load are too wide for this fit: with half of them {names[j]} changes by {abs(shift[j]):.2g} half "
                                  "widths of its interval; give more Load steps / Steps, or a smaller Tolerance")
@@ -305,7 +320,7 @@ class Fit:
                 self.warnings.append(f"{n} of {len(experiment.measured.over)} rows of {experiment.measured.file} are beyond {experiment.ends_at:.4g} "
                                      f"{over.unit}, where the load of the scene is reached, and are compared with a straight line from there: "
                                      "give the load of the test, or leave them out with Calibration / Windows")
-            said = (experiment.warnings(problem.unknowns.starts), experiment.warnings(self.values))
+            said = (experiment.scene_of(problem.unknowns.starts).warnings, experiment.scene_of(self.values).warnings)
             self.warnings += [f"with the values that were found {text}" for text in said[1] if text not in said[0]]
 
     def _warn_of_noise(self):

@@ -1,5 +1,6 @@
 """What a fit has taken as known: by how much its answer changes if that is wrong."""
 
+import itertools
 import re
 
 import numpy
@@ -7,7 +8,6 @@ import numpy
 import _debond
 
 from .errors import RunError, SceneError
-from .experiment import Experiment
 from .measurement import given
 from .page_data import numbers
 
@@ -95,8 +95,7 @@ def _change_of_curve(fit, entry, text):
     closed = not problem.why_no_closed_form
     for experiment in problem.done:
         try:
-            other = Experiment(problem.unknowns, experiment.number, _debond.changed(experiment.given, [f"{entry}={text}"]), experiment.name,
-                               experiment.measured)
+            other = experiment.changed({entry: text})
             if any(text.startswith(entry + " = ") and "has no effect" in text for text in other.scene.warnings):
                 return None
             if closed and not other.why_no_closed_form:
@@ -139,7 +138,8 @@ def _compensation(J, change, robust):
 
 def table_of(fit):
     """A list of {"entry", "value", "unit", "change", "effect": {unknown: by how many % of itself}}. Rows over which 1 % of a number moves
-    a jump of the curve are left out, and so are effects on what hardly any other rows tell, and numbers that change nothing by 0.01 %."""
+    a jump of the curve are left out, and so are effects on what hardly any other rows tell, and numbers that change nothing by 0.01 %.
+    Cells and steps of the fit come first, as they are."""
     problem, told = fit.problem, fit.told
     usable = told.free & numpy.isfinite(told.half_widths)
     free = numpy.flatnonzero(usable)
@@ -149,8 +149,9 @@ def table_of(fit):
     steady = (abs(J) * percent <= _JUMP * (problem.weights * largest)[:, None]).all(axis=1)
     if not steady.all():
         usable[free] = _uncertainties(J[steady]) < 10 * _uncertainties(J)
-    for entry, value, unit, change, text in _changes(fit):
-        change_of_curve = _change_of_curve(fit, entry, text)
+    of_runs = [((error.entry, error.value, "", error.change), error.of_curve) for error in fit.errors]
+    others = ((change[:4], _change_of_curve(fit, change[0], change[4])) for change in _changes(fit))
+    for (entry, value, unit, change), change_of_curve in itertools.chain(of_runs, others):
         if change_of_curve is None:
             continue
         rows = steady & (abs(change_of_curve) <= _JUMP * largest)
@@ -161,6 +162,6 @@ def table_of(fit):
         with numpy.errstate(over="ignore"):
             effect = numpy.where(usable & (fit.values != 0), 100 * (other / numpy.where(fit.values == 0, 1, fit.values) - 1), numpy.nan)
         effect = {name: (round(float(x), 2) + 0.0 if numpy.isfinite(x) else None) for name, x in zip(fit.names, effect)}
-        if any(effect.values()) or (abs(change_of_curve).max() > 1e-6 * largest.max() and set(effect.values()) == {None}):
+        if len(table) < len(fit.errors) or any(effect.values()) or (abs(change_of_curve).max() > 1e-6 * largest.max() and set(effect.values()) == {None}):
             table.append({"entry": entry, "value": value, "unit": unit, "change": change, "effect": effect})
     return table

@@ -169,8 +169,13 @@ def varied_in(table):
 
 def table_of(table, columns=None):
     """Head and rows of these columns, (name, words), as far as a table has them and they are not empty; entries of the scene
-    stand as they were given."""
-    fields = [(words, [text if name in varied_in([name]) else shown(text) for text in table[name]])
+    stand as they were given, and values with their estimated errors."""
+    def cells(name):
+        errors = numbers(table.get(name + "_error", [""] * n_rows(table)))
+        return [text if name in varied_in([name]) else with_error(number(text), error, "") if error > 0 else shown(text)
+                for text, error in zip(table[name], errors)]
+
+    fields = [(words, cells(name))
               for name, words in columns or [(name, name) for name in table] if name in table]
     fields = [(words, texts) for words, texts in fields if any(texts)]
     return [words for words, _ in fields], list(zip(*(texts for _, texts in fields)))

@@ -102,7 +102,7 @@ class Problem:
         self.done = [experiment for experiment in experiments if experiment.is_done]
         self.values = experiments[0].values
         self.measure = self.values["Calibration / Measure"]
-        self.steps = {id(experiment): () for experiment in experiments}
+        self.steps, self.halvings = {id(experiment): () for experiment in experiments}, 0  # of steps that are chosen
         self.series, first = [], 0
         for experiment in self.done:
             n = len(experiment.measured.over)
@@ -142,7 +142,10 @@ class Problem:
         for experiment in self.experiments:
             if experiment.is_finite_elements:
                 changes, _ = experiment.changes(values)
-                self.steps[id(experiment)] = experiment.curve.steps_of(list(changes))
+                steps = experiment.curve.steps_of(list(changes))
+                for _ in range(self.halvings):
+                    steps = experiment.halved(steps)
+                self.steps[id(experiment)] = steps
 
     def settle(self, values):
         for experiment in self.done:
@@ -226,11 +229,20 @@ class Problem:
         r = self.residuals(curve)
         return 0.5 * r @ r if self.measure == "least squares" else numpy.sum(numpy.hypot(r, SMOOTH) - SMOOTH)
 
+    def moved(self, end, change):
+        """Where an Optimum goes, to first order, if predicted values change by this (N)."""
+        if end.derivatives is None:
+            return end.values
+        unknowns, weights = self.unknowns, self.weights_of_measure
+        step = numpy.linalg.lstsq(weights[:, None] * end.derivatives, -weights * change, rcond=1e-7)[0]
+        return unknowns.from_search(numpy.clip(unknowns.to_search(end.values) + step, unknowns.to_search(unknowns.lower),
+                                               unknowns.to_search(unknowns.upper)))
+
     def minimise(self, start, closed, free=None, near=None):
         """From these values on to the end, by SciPy's trust region within the bounds. `free`: indices of the unknowns that are
-        searched; all of them if it is not given. `near`: an Optimum close by, whose derivatives may do. What fails makes steps
-        smaller. Derivatives of runs are dear: those of the closed form lead close to the end, differences of runs to the end
-        itself, taken again until it stays within a tenth of what the noise moves it by."""
+        searched; all of them if it is not given. `near`: an Optimum close by, whose derivatives do if the end is no further from it
+        than the noise moves it. What fails makes steps smaller. Derivatives of runs are dear: those of the closed form lead close to
+        the end, differences of runs to the end itself, taken again until it stays within a tenth of what the noise moves it by."""
         free = numpy.arange(len(start)) if free is None else numpy.asarray(free)
         try:
             if len(free) == 0:
@@ -243,9 +255,9 @@ class Problem:
             return Optimum(start, why=str(error))
 
     def _minimise_by_runs(self, start, free, near, rounds=12):
-        values, place, J = start, None, None
+        values, place, J, share = start, None, None, 1e-2
         if near is not None and near.derivatives is not None:
-            place, J = near.values, near.derivatives[:, free]
+            place, J, share = near.values, near.derivatives[:, free], 1
         elif not self.why_no_closed_form:
             try:
                 self.settle(start)
@@ -259,12 +271,12 @@ class Problem:
             moved = self.weights_of_measure * (J @ (self.unknowns.to_search(values) - self.unknowns.to_search(place))[free])
             end = self._at_bounds(values, True, False, free)
             noise = self.residuals(end.curve)
-            if moved @ moved <= 1e-2 * (noise @ noise) / max(1, len(noise) - len(free)) + 1e-12 * len(noise):
+            if moved @ moved <= share * (noise @ noise) / max(1, len(noise) - len(free)) + 1e-12 * len(noise):
                 end.steps = dict(self.steps)
                 if len(free) == len(start):
                     end.derivatives = J
                 return end
-            J = None
+            J, share = None, 1e-2
         end.converged = False
         return end
 

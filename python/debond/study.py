@@ -25,7 +25,7 @@ from .errors import Interrupted, RunError, SceneError
 from .files import csv_text, heeding, say, write_whole
 from .page import write_page_if_possible
 from .page_campaigns import names_of
-from .page_data import CHANCE, number, rows_file
+from .page_data import CHANCE, number, rows_file, with_error
 from .variants import is_varied, variants_of
 
 
@@ -33,6 +33,16 @@ from .variants import is_varied, variants_of
 OF_THE_STUDY = ("Study/Reference variant=none", "Study/Factors varied at once=all", "Study/Repetitions=1", "Output/Console=quiet",
                 "Output/Report=false")
 ALONE = _debond.Team(0)
+
+
+def _scene(entries, file, variant):
+    """A mistake without a place is one of what this variant reads, and others may not."""
+    try:
+        return _debond.Scene(entries, file, ALONE)
+    except SceneError as error:
+        if error.place is None:
+            error.args = (f"{variant}: {error}",)
+        raise
 
 
 class Variant:
@@ -45,7 +55,7 @@ class Variant:
         self.directory = f"{study.directory}/variant-{number:03d}"
         self.n_repetitions = study.n_repetitions
         entries = _debond.changed(variant.entries, [*OF_THE_STUDY, "Output/Directory=" + self.directory], "--set")
-        self.scene = _debond.Scene(entries, study.name, ALONE)
+        self.scene = _scene(entries, study.name, self.name)
         self.summary, self.repetitions, self.failure, self.done, self.is_compared = {}, [], "", False, False
         self.has_other_references, self.other_program = False, ""
 
@@ -100,8 +110,9 @@ class Variant:
 
     def outcome(self):
         if self.done:
-            torque, seconds = (number(self.summary.get(name)) for name in ("T_max_Nmm", "wall_seconds"))
-            return f"T_max {torque:.4g} N mm, {seconds:.4g} s"
+            torque, error, seconds = (number(self.summary.get(name)) for name in ("T_max_Nmm", "T_max_Nmm_error", "wall_seconds"))
+            text = with_error(torque, error, "N mm").replace("±", "+-") if error > 0 else f"{torque:.4g} N mm"
+            return f"T_max {text}, {seconds:.4g} s"
         return self.failure if self.failure.startswith("interrupted") else "failed: " + self.failure
 
 
@@ -176,7 +187,7 @@ class Study:
                 entry.refuse("a study gives each variant a directory of its own below this one: expected one value")
         self.name = name
         variants = variants_of(entries)
-        first = _debond.Scene(variants[0].entries, name, ALONE)
+        first = _scene(variants[0].entries, name, "variant-001")
         values = first.values
         self.directory, self.reports = values["Output / Directory"], values["Output / Report"] == "true"
         self.say = heeding(values["Output / Console"], say)

@@ -9,6 +9,7 @@ import importlib
 import os
 import sys
 import tempfile
+import time
 import warnings
 from types import SimpleNamespace
 
@@ -16,7 +17,7 @@ import numpy
 from scipy import signal, stats
 
 import debond
-from debond import intervals, noise
+from debond import intervals, noise, numerics
 from debond.calibrate import why_it_does_not_fit
 from debond.errors import RunError
 from debond.experiment import Experiment
@@ -607,6 +608,40 @@ end
     report("the same fit once more gives the same digits", (again.values == found.values).all() and (again.lower == found.lower).all(), again.values - found.values)
 
 
+# Angles [deg] and torques [N mm] of prm/tutorial/implant.prm with interface stiffnesses of 1500 MPa/mm: a converged run, splines of 45 x 45 x 12
+# and 9 x 9 cells, graded by 2, linear bodies, Tolerance = 2e-5.
+CONVERGED = ((0.01, 23.8184), (0.02, 42.9003), (0.04, 47.2925), (0.06, 47.6199), (0.09, 47.697), (0.12, 47.7128), (0.15, 47.7191),
+             (0.18, 47.7202), (0.21, 47.7212), (0.25, 47.7224), (0.29, 47.7229), (0.33, 47.7234), (0.37, 47.7235), (0.4, 47.7235),
+             (1.297, 39.9318), (2.412, 33.0361), (3.686, 32.1616), (5.28, 31.9326), (6.873, 31.869), (8.466, 31.8439), (9.9, 31.8332))
+
+
+def check_cells():
+    """A fit to a converged curve whose noise is said to be 0.2 %: the cells of the first fit leave errors that are told, and found again
+    with finer ones, which the fit takes; those of what it takes are small."""
+    write("converged.csv", dict(zip(("angle_deg", "torque_Nmm"), numpy.transpose(CONVERGED))))
+    scene = debond.Scene(os.path.dirname(os.path.abspath(__file__)) + "/../../prm/tutorial/implant.prm", {
+        I + "Normal stiffness": 1500, I + "Tangential stiffness": "<<eps_t: 1000 in 100..10000 log>>",
+        I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.2..1>>", "Output/Reference curve": "converged.csv", "Calibration/Starts": 1,
+        "Calibration/Noise": 0.002})
+    problem, truth = fits.problem_of(scene), numpy.array([1500, 0.6])
+    first = fits.Fit(problem, *fits.find_optima(problem), time.time())
+    last = numerics.refined(first)
+    told = problem.moved(first.optima[0], first.errors[0].of_curve) - first.values
+    report("finer cells move a fit as it is told, to 30 %", (abs(told / (last.values - first.values) - 1) < 0.3).all(), (told, last.values, first.values))
+    off = [abs(problem.unknowns.to_search(one.values) - problem.unknowns.to_search(truth)) / one.told.half_widths for one in (first, last)]
+    report("they are taken where the error is more than a third of a half width", off[0].max() > 1 / 3 > off[1].max(), off)
+    report("errors that are left are small, and known", [one.entry for one in last.errors] == ["Cells", "Steps"] and last.warnings == []
+           and max(one.half_widths for one in last.errors) < numerics.LARGEST, (last.errors, last.warnings))
+    row = last.taken_as_known[0]
+    report("the table has cells first", row["value"] == "23, 23, 6 and 5, 5, 5" and row["change"] == "to 35, 35, 9 and 8, 8, 8"
+           and 0 < abs(row["effect"]["mu_ub"]) < 0.05, row)
+    for entry, value in (("Largest number of unknowns", "1000"), ("Largest minutes", "1e-4")):
+        kept, problem.values["Expert / " + entry] = problem.values["Expert / " + entry], value
+        said = numerics.refined(first).warnings[-1]
+        report(f"that there are none because of {entry} is told", said.endswith("is beyond Expert / " + entry), said)
+        problem.values["Expert / " + entry] = kept
+
+
 def check_few_rows():
     """As many rows as unknowns, with a noise that is known: the intervals are those of the covariance of the rows."""
     clean = measured("clean.csv")
@@ -703,7 +738,7 @@ def check_known_of_pulls():
     report("a gap at strength 1 % off moves t_0 by -0.49 %, in the table, in a fit and in closed form, to 0.02 %",
            max(abs(100 * by_gap - table["Interface / Adhesive / Gap at strength"]), abs(100 * (by_gap - again))) < 0.02, (by_gap, again, table))
     report("1 % of the largest force: -1.42 %", abs(100 * by_force - table["Calibration / Force offset"]) < 0.02, (by_force, table))
-    rows = {"Implant / Radius", "Interface / Adhesive / Gap at strength", "Interface / Bonding / Bonding degree",
+    rows = {"Steps", "Implant / Radius", "Interface / Adhesive / Gap at strength", "Interface / Bonding / Bonding degree",
             *("Calibration / " + name for name in ("Displacement offset", "Displacement slack", "Displacement compliance", "Force offset", "Force drift"))}
     report("no row of what a pull does not read", set(table) == rows, set(table) ^ rows)
     mixed = {I + "Law": "mixed mode", I + "Mixed mode/Fracture energy I": "<<G: 0.06 in 0.02..0.2>>", I + "Viscosity": 1}
@@ -776,6 +811,7 @@ def main():
         check_constant()
         check_words_of_search()
         check_steps()
+        check_cells()
         check_few_rows()
         check_band()
         check_what_cannot_be_told()

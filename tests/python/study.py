@@ -8,6 +8,7 @@ for digit, those of runs alone), warnings before anything is run.
 import csv
 import glob
 import json
+import math
 import os
 import shutil
 import statistics
@@ -164,6 +165,27 @@ def check_repetitions():
     assert 0 < float(row["seconds_before_steps"]) < float(row["wall_seconds"]) and 0 < float(row["seconds_stepping"])
 
 
+def check_lacking():
+    """A variant that lacks an entry is named, whichever it is; a mistake with a place has that alone (tests/bad_scenes)."""
+    coin = os.path.dirname(os.path.abspath(__file__)) + "/../../prm/tutorial/implant.prm"
+    for shapes, name in (("coin|ring", "variant-002: Implant / Shape = ring: "), ("ring|coin", "variant-001: ")):
+        said, code = debond(coin, "--check", "--set", f"Implant/Shape={{{{{shapes}}}}}", "--set", "Output/Directory=lacking")
+        same(code, 1)
+        assert said.startswith(name + coin + ": it does not say all") and "set Inner radius =" in said, said
+
+
+def check_errors():
+    """Values with their estimated errors, two digits of these, on console and page."""
+    said = study("coin.prm", "errors", "Accuracy=5 %", "Bone/Material=rigid", "Implant/Material=linear", "Load steps/Steps=1, 10",
+                 "Interface/Friction coefficient broken={{0.3|0.4}}")
+    page = content("errors/report.html")
+    for row in table("errors"):
+        value, error = float(row["T_max_Nmm"]), float(row["T_max_Nmm_error"])
+        decimals = 1 - math.floor(math.log10(error))
+        text = f"{value:.{decimals}f} ± {error:.{decimals}f}"
+        assert text in page and f"T_max {text.replace('±', '+-')} N mm" in said, (text, said)
+
+
 def check_table():
     """One variant of four fails; the foundation with the stiffness of the bodies is close to them."""
     changes = ("Model={{finite elements|foundation}}", "Chuck/Rotation x/Value={{0|1e-3 * t}}", "Study/Reference variant=1")
@@ -269,4 +291,6 @@ check_queue()
 check_reference()
 check_repetitions()
 check_table()
+check_lacking()
+check_errors()
 check_shared_bodies()

@@ -127,9 +127,13 @@ namespace Debond
     void
     choose_around_block(Choice &choice)
     {
-      choice.choose("Bone", "Cells", "14, 14, 4");
-      choice.entries.push_back({{"Bone"}, "Cells under implant", "6", ""});
-      choice.choose("Bone", "Layer grading", "2");
+      const bool is_stiff = !choice.scene.has_soft_interface();
+      choice.choose("Bone", "Cells", is_stiff ? "18, 18, 5" : "14, 14, 4");
+      choice.entries.push_back(
+        {{"Bone"}, "Cells under implant", is_stiff ? "8" : "6", ""});
+      if (is_stiff)
+        choice.choose("Bone", "Rim grading", "2.5");
+      choice.choose("Bone", "Layer grading", is_stiff ? "2.5" : "2");
     }
 
 

@@ -54,6 +54,7 @@ do for [format in "png svg"] {
   set bmargin 10.5
   set key at screen 0.5, 0.01 bottom center maxrows 5 samplen 1.5
   front = dir . "front_torque.csv"
+  chosen = dir . "work_precision_accuracy.csv"
   # what the reference is known to
   floor_of_error = 1.2e-5
   set arrow 1 from graph 0, first floor_of_error to graph 1, first floor_of_error nohead dashtype 2 linecolor rgb "#888888"
@@ -63,6 +64,8 @@ do for [format in "png svg"] {
     for [k=1:words(tiers)] NaN with points pointtype 7 pointsize (1.6 * point) linecolor rgb colour(k) title short(word(tiers, k)), \
     for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize (1.6 * point) linecolor rgb "#444444" title mesh_name(m), \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "best", \
+    chosen using "seconds":"error_torque" with linespoints linewidth 3 pointtype 7 pointsize (2 * point) linecolor rgb red title "Accuracy", \
+    chosen using "seconds":"error_torque":(strcol("accuracy") . " %") with labels offset 0.8, 0.7 left textcolor rgb red notitle, \
     for [far=0:1] front using ((column("seconds") < 0.7 && int($0) % 2) == far ? column("seconds") : NaN):"error_torque":(sprintf("%d", $0 + 1)) \
       with labels offset (far ? -2.6 : -0.6), -0.7 right notitle
   unset label

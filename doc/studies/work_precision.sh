@@ -35,10 +35,25 @@ run with two threads."
     "$debond" "prm/studies/work_precision${study:+_$study}.prm" --jobs 1 --threads 2 "${force[@]}"
   done
   # what a process of its own would take in addition: the least of five empty ones
+  TIMEFORMAT=%R
   for _ in 1 2 3 4 5; do
-    TIMEFORMAT=%R
     { time "$debond" --version > /dev/null; } 2>&1
   done | sort -g | head -n 1 > $results/start
+  # Accuracy: the least of three processes, which run a coarser scene, too
+  echo "accuracy,seconds,error_torque,estimate,cells" > $results/work_precision_accuracy.csv
+  for accuracy in 5 1 0.3 0.1 0.03; do
+    echo "== $(date +%H:%M) Accuracy = $accuracy %"
+    seconds=$(for _ in 1 2 3; do
+      { time "$debond" prm/studies/work_precision_accuracy.prm --force --threads 2 --set "Accuracy=$accuracy %" > /dev/null; } 2>&1
+    done | sort -g | head -n 1)
+    python3 -c '
+import json, re, sys
+accuracy, seconds, directory = sys.argv[1:]
+summary = json.load(open(directory + "/summary.json"))
+cells = re.findall(r"^ *set Cells *= (.*)", open(directory + "/parameters.prm").read(), re.M)
+print(accuracy, seconds, summary["difference_max"], summary["error_estimate"], " / ".join(cells).replace(", ", " x "), sep=",")
+' $accuracy "$seconds" $results/work_precision_accuracy >> $results/work_precision_accuracy.csv
+  done
 fi
 
 for study in work_precision{_closed_forms,_coulomb,_coulomb_splines,_ends,_splines,_quadratic,}; do
@@ -72,6 +87,10 @@ gnuplot -e "codes='$codes'; methods='$methods'; start='$start'" doc/studies/work
 echo "On the front of torque curves (seconds, largest error relative to T_max):"
 awk -F, 'NR > 1 { printf "%9.3f  %.1e  %s\n", $8, $12, $16 }' $results/front_torque.csv
 {
+  echo "| Accuracy | cells chosen, bone / implant | seconds | error of the torque curve | estimate |"
+  echo "| --- | --- | --- | --- | --- |"
+  awk -F, 'NR > 1 { printf "| %s %% | %s | %.2g s | %.1e | %.1e |\n", $1, $5, $2, $3, $4 }' $results/work_precision_accuracy.csv
+  echo
   awk -f doc/studies/tables.awk $results/work_precision.csv
   printf '\n| number in the picture | seconds | error of the torque curve | choice |\n| --- | --- | --- | --- |\n'
   awk -F, 'NR > 1 { printf "| %d | %.3g | %.1e | %s |\n", NR - 1, $8, $12, $16 }' $results/front_torque.csv
@@ -82,6 +101,6 @@ if [[ $publish == true ]]; then
   for picture in work_precision work_precision_local work_precision_codes; do
     for format in png svg; do cp $results/$picture.$format doc/images/; done
   done
-  doc/studies/publish.py doc/evidence/speed_and_accuracy.md work_precision splines+ meshes factors fastest+ front+ < $results/work_precision.md
+  doc/studies/publish.py doc/evidence/speed_and_accuracy.md work_precision accuracy+ splines+ meshes factors fastest+ front+ < $results/work_precision.md
   echo "Published in doc/images and doc/evidence"
 fi

@@ -327,7 +327,7 @@ namespace Debond
     return std::max(interface.normal_penalty,
                     interface.tangential_stiffness()) *
              implant.characteristic_radius() <
-           0.7 * bone.softest_modulus();
+           0.2 * bone.softest_modulus();
   }
 
 

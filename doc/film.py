@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Film of the debonding front: phi on the contact face, and beside it the torque curve with a mark that moves along it.
 
-    build/release/debond SCENE.prm --set "Output/Profile angles=$(doc/film.py --angles)"
+    build/release/debond SCENE.prm --set "Expert/Output/Profile angles=$(doc/film.py --angles)"
     doc/film.py output/DIR --film front.webm --still front_film.png
 
 The film has the angles of profiles.csv as its frames, 12 a second; doc/pictures.sh film makes that of the pages. Needs NumPy,
@@ -110,7 +110,7 @@ class Picture:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directory", nargs="?", metavar="DIR", help="with profiles.csv and torque.csv")
-    parser.add_argument("--angles", action="store_true", help="print the angles of the film [deg], for Output / Profile angles")
+    parser.add_argument("--angles", action="store_true", help="print the angles of the film [deg], for Expert / Output / Profile angles")
     parser.add_argument("--film", metavar="FILE.webm", help="or .mp4")
     parser.add_argument("--still", metavar="FILE.png")
     parser.add_argument("--at", type=float, default=2.5, metavar="DEG", help="angle of the still (default: 2.5)")
@@ -119,7 +119,7 @@ def main():
         print(", ".join("%g" % angle for angle in angles_of_film()))
         return
     if not arguments.directory or not os.path.isfile(os.path.join(arguments.directory, "profiles.csv")):
-        sys.exit("film.py: needs a directory with profiles.csv: run a scene with Output / Profile angles")
+        sys.exit("film.py: needs a directory with profiles.csv: run a scene with Expert / Output / Profile angles")
     picture = Picture(arguments.directory)
     if arguments.still:
         picture.save_still(arguments.still, arguments.at)

@@ -36,7 +36,7 @@ NUMBER = re.compile(r'(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?')
 MAIN, REFERENCE = 'prm/paper/main_scene.prm', 'Output/Reference curve=prm/studies/data/work_precision_torque.csv'
 STAND_IN = 'prm/paper/data/closed_form_b_data_set_%d.csv'
 LINEAR = ('Bone/Material=linear', 'Implant/Material=linear')
-LAYERED = ('Bone/Layer grading=1.5', 'Implant/Layer grading=1.5')
+LAYERED = ('Expert/Bone/Layer grading=1.5', 'Expert/Implant/Layer grading=1.5')
 OTHER_INTERFACE = ('Interface/Normal stiffness=585', 'Interface/Tangential stiffness=auto', 'Interface/Friction coefficient unbroken=0.58',
                    'Interface/Characteristic slip distance=0.022')
 THREE_PHASES = ('Load steps/Times=0, 1, 1.1, 2', 'Load steps/Steps=1, 10, 10')
@@ -63,7 +63,7 @@ def numbers(cost):
 
 def debond(scene, directory, *changes, force=True, ranks=0):
     """ranks: under mpirun with so many processes of a thread each."""
-    changes = ('Output/Directory=' + directory, 'Output/Console=quiet') + changes
+    changes = ('Output/Directory=' + directory, 'Expert/Output/Console=quiet') + changes
     mpirun = ['mpirun', '--oversubscribe', '-np', str(ranks)] * (ranks > 0)
     os.environ.update({'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'})
     alone = ['--threads', '1'] * (ranks > 0) + ['--jobs', '1'] * (ranks == 1)
@@ -240,7 +240,7 @@ def bone_in_series():
     """What the bone under a rigid implant adds to the compliance of the printed interface."""
     press = isotropic(1800) + ('Bone/Material=linear', 'Implant/Material=rigid', 'Load steps/Times=0, 1', 'Load steps/Steps=1')
     two_layers, converged = (1 / (.0049 / run(MAIN, *press, *mesh)['pressure_MPa'] - 1 / 1800) for mesh in (
-        (), ('Bone/Element=spline', 'Bone/Cells=60, 60, 12', 'Bone/Layer grading=2', 'Implant/Cells=8, 2')))
+        (), ('Bone/Element=spline', 'Bone/Cells=60, 60, 12', 'Expert/Bone/Layer grading=2', 'Implant/Cells=8, 2')))
     return '%.0f MPa/mm; %.0f on the two layers of cells of the paper' % (converged, two_layers)
 
 
@@ -273,7 +273,7 @@ def reaction_defect():
 def slave_is_bone():
     off = []
     for changes in ((), ('Bone/Cells=30, 30, 2', 'Implant/Cells=6, 2')):
-        implant, bone = (run(MAIN, 'Load steps/Steps=1, 20', *changes, 'Interface/Slave=' + slave)['curve'] for slave in ('implant', 'bone'))
+        implant, bone = (run(MAIN, 'Load steps/Steps=1, 20', *changes, 'Expert/Interface/Slave=' + slave)['curve'] for slave in ('implant', 'bone'))
         ratios = [b['torque_Nmm'] / a['torque_Nmm'] - 1 for a, b in zip(implant, bone) if a['angle_deg'] > 0]
         off.append(percent(max(ratios, key=abs)))
     return '%s on the coarse mesh, %s on the medium one' % tuple(off)
@@ -307,7 +307,7 @@ def closed_form_b():
 def numpy_main_scene():
     columns = []
     for name, start in (('main_scene', 'main_scene'), ('main_scene_as_printed', 'main_scene_1800')):
-        result = run('tests/verification/%s.prm' % name, 'Load steps/Steps=1, 100', 'Load steps/Residual tolerance=1e-12')
+        result = run('tests/verification/%s.prm' % name, 'Load steps/Steps=1, 100', 'Expert/Load steps/Residual tolerance=1e-12')
         force = next(row['force_N'] for row in result['curve'] if row['time'] == 1)
         stiffness = run('tests/comparison/numpy/%s.prm' % start)['initial_stiffness_Nmm_per_rad'] / 1000
         columns.append(['%.10g' % force, '%.7g' % stiffness, '%.10g' % result['T_max_Nmm'], '%.10g' % result['T_inf_Nmm']])
@@ -442,7 +442,7 @@ def half_space_parts():
         ['partial slip, whole curve: block of 20 against 12.5 mm',
          off('Bone/Size={{12.5, 12.5, 6.25||20, 20, 10}}', 'Bone/Cells={{40, 40, 10||64, 64, 16}}'),
          '`torsional_partial_slip.prm`, `Bone / Size`, `Cells`'],
-        ['the same: 8 against 5 quadrature points', off('Interface/Quadrature points={{5|8}}'), '`Interface / Quadrature points`'],
+        ['the same: 8 against 5 quadrature points', off('Expert/Interface/Quadrature points={{5|8}}'), '`Expert / Interface / Quadrature points`'],
         ['the same: 25 against 5 steps', off('Load steps/Steps={{1, 5|1, 25}}'), '`Load steps / Steps`'],
         ['the same: pressed in with friction instead of without', off('Interface/Friction starts at={{1|0}}'), '`Interface / Friction starts at`'],
         ['Hertz, error of the mesh of 12, 16, 24, 32 cells (1)',
@@ -666,7 +666,7 @@ LAYERS = {(2, 1.): '2 (the paper) | 1', (2, 1.5): '2 | 1.5', (4, 1.): '4 | 1', (
 
 def layer_rows(name):
     """By layers and grading: p, K and T_inf relative to those of 8 graded layers, and the difference of the torque."""
-    rows = {(int(row['Bone / Cells'].split()[-1]), row['Bone / Layer grading']): row for row in study('prm/paper/%s.prm' % name)}
+    rows = {(int(row['Bone / Cells'].split()[-1]), row['Expert / Bone / Layer grading']): row for row in study('prm/paper/%s.prm' % name)}
     columns, last = ('pressure_MPa', 'initial_stiffness_Nmm_per_rad', 'T_inf_Nmm'), rows[8, 1.5]
     lines = {key: ['%+.2f %%' % (100 * (row[c] / last[c] - 1)) for c in columns] + ['%.2f %%' % (100 * row['difference_max'])]
              for key, row in rows.items()}
@@ -934,7 +934,7 @@ UNIFORM = ('Interface/Bonding/Pattern=homogeneous', 'Interface/Bonding/Bonding d
 @numbers('minutes')
 def random_patterns():
     angles = (.04, .06, .08, .1, .2, .5, 1, 2, 10)
-    common = LINEAR + ('Implant/Cells=20, 2', 'Interface/Quadrature points=3', 'Load steps/Steps=1, 10, 9, 8',
+    common = LINEAR + ('Implant/Cells=20, 2', 'Expert/Interface/Quadrature points=3', 'Load steps/Steps=1, 10, 9, 8',
                        'Load steps/Times=0, 1, 1.02, 1.2, 2')
     ensemble = study(MAIN, *common, *RANDOM, 'Interface/Bonding/Seed={{1..60}}', 'Output/Fields every=none') and rows_of(
         directory_of(MAIN, common + RANDOM + ('Interface/Bonding/Seed={{1..60}}', 'Output/Fields every=none')) + '/ensemble.csv')
@@ -1123,7 +1123,7 @@ def tutorial_no_machine():
 @numbers('minutes')
 def mean_force():
     """The scene says what these changes are for."""
-    return with_interval(fit('prm/calibrate/axial_force.prm', 'Chuck/Press/File=none', 'Chuck/Press/File columns=auto',
+    return with_interval(fit('prm/calibrate/axial_force.prm', 'Chuck/Press/File=none', 'Expert/Chuck/Press/File columns=auto',
                              'Chuck/Press/Value=25.4 * min(t, 1)')['unknowns']['mu_ub'])
 
 
@@ -1189,7 +1189,7 @@ def adaptive_scenes():
         ('twist', 1, {'Rotation z': '10 * max(t - 1, 0)'}, mesh),
         ('shear, then twist, rigid bodies', 2, turning, rigid),
         ('shear, then twist', 2, turning, mesh),
-        ('the same, bone as slave', 2, turning, mesh + ('Interface/Slave=bone',)),
+        ('the same, bone as slave', 2, turning, mesh + ('Expert/Interface/Slave=bone',)),
         ('zig-zag while it turns', 4, {'Translation x': '0.01 * (%s - min(max(t - 4, 0), 1))' % zigzag,
                                        'Translation y': '0.005 * max(t - 1, 0)', 'Rotation z': '0.5 * max(t - 1, 0)'}, mesh),
         ('random patches, 3000 MPa/mm', 1, {'Rotation z': '3 * max(t - 1, 0)'}, mesh + (
@@ -1241,7 +1241,7 @@ def spline_layers():
 def spline_points():
     points, lines = [4, 5, 6, 7, 8, 10], []
     for bone, implant in (('24, 24, 8', '4, 3'), ('32, 32, 8', '6, 4'), ('40, 40, 8', '6, 4'), ('60, 60, 10', '8, 6')):
-        rows = study_of_splines(bone, implant, 'Interface/Quadrature points={{%s}}' % '|'.join(map(str, points)))
+        rows = study_of_splines(bone, implant, 'Expert/Interface/Quadrature points={{%s}}' % '|'.join(map(str, points)))
         name = '%s / %s x %s' % (bone.replace(', ', ' x '), implant.split(',')[0], implant.replace(', ', ' x '))
         # the reference is known to 1.2e-5
         lines.append([name] + [small(row['difference_max'], int(row['difference_max'] > 1e-4)) for row in rows])
@@ -1252,15 +1252,15 @@ def spline_points():
 def refined_parts():
     """Quadratic elements on a mesh graded to the rim, of which one part is made finer."""
     choices = (('24 x 24 x 4 / 8 x 8 x 3', {}),
-               ('cells below the contact layer twice as wide', {'Bone/Coarser below': 'true'}),
+               ('cells below the contact layer twice as wide', {'Expert/Bone/Coarser below': 'true'}),
                ('twice the layers of the bone', {'Bone/Cells': '24, 24, 8'}),
                ('the bone beside the implant 3 times finer', {'Bone/Cells': '40, 40, 4'}),
                ('the bone under the implant, to the rim, 1.5 times finer',
-                {'Bone/Cells': '32, 32, 4', 'Bone/Cells under implant': '24'}),
+                {'Bone/Cells': '32, 32, 4', 'Expert/Bone/Cells under implant': '24'}),
                ('the implant 2 times finer', {'Implant/Cells': '16, 6'}),
-               ('everything 1.5 times finer', {'Bone/Cells': '36, 36, 6', 'Bone/Cells under implant': '24', 'Implant/Cells': '12, 5'}))
-    mesh = {'Bone/Cells': '24, 24, 4', 'Bone/Cells under implant': '16', 'Implant/Cells': '8, 3', 'Bone/Layer grading': '2',
-            'Implant/Layer grading': '1.5', 'Bone/Element': 'quadratic', 'Implant/Element': 'quadratic'}
+               ('everything 1.5 times finer', {'Bone/Cells': '36, 36, 6', 'Expert/Bone/Cells under implant': '24', 'Implant/Cells': '12, 5'}))
+    mesh = {'Bone/Cells': '24, 24, 4', 'Expert/Bone/Cells under implant': '16', 'Implant/Cells': '8, 3', 'Expert/Bone/Layer grading': '2',
+            'Expert/Implant/Layer grading': '1.5', 'Bone/Element': 'quadratic', 'Implant/Element': 'quadratic'}
     lines = []
     for name, changes in choices:
         summary = run(MAIN, *('%s=%s' % entry for entry in {**mesh, **changes}.items()), *LINEAR, *THREE_PHASES,
@@ -1271,11 +1271,11 @@ def refined_parts():
 
 def with_mesh(bone, implant, grading, element, tolerance):
     return tuple('%s/%s' % pair for body, cells in (('Bone', bone), ('Implant', implant)) for pair in (
-        (body, 'Cells=' + cells), (body, 'Layer grading=%g' % grading), (body, 'Element=' + element))) + ADAPTIVE + (
+        (body, 'Cells=' + cells), ('Expert/' + body, 'Layer grading=%g' % grading), (body, 'Element=' + element))) + ADAPTIVE + (
             'Load steps/Tolerance=' + tolerance,) + THREE_PHASES
 
 
-BONDED_IN_A_DISK = ('Interface/Bonding/Pattern=disk', 'Interface/Bonding/Bonded fraction=0.55', 'Interface/Bonding/Resolution=quadrature point')
+BONDED_IN_A_DISK = ('Interface/Bonding/Pattern=disk', 'Interface/Bonding/Bonded fraction=0.55', 'Expert/Interface/Bonding/Resolution=quadrature point')
 TILTED = ('Chuck/Rotation x/Value=0.1 * min(t, 1)',)
 
 
@@ -1313,7 +1313,7 @@ def splines_elsewhere():
         ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Press/Value=0.02 * min(t, 1)')),
         ('tilted by 0.1 degrees', TILTED),
         ('a force instead of a depth', ('Chuck/Press/Control=force', 'Chuck/Press/Value=51.5 * min(t, 1)'))),
-        with_mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Interface/Quadrature points=8',), choices)
+        with_mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Expert/Interface/Quadrature points=8',), choices)
 
 
 @numbers('seconds')
@@ -1359,7 +1359,7 @@ def lattice():
         changes = ('Bone/Cells=' + cells, 'Implant/Cells=8, 4') + changes
         result, *line = measured(*changes)
         if cells == '60, 60, 6':
-            direct, *more = measured(*changes, 'Bone/Solver=direct')
+            direct, *more = measured(*changes, 'Expert/Bone/Solver=direct')
             line += more
         else:
             line += ['', '']
@@ -1367,9 +1367,9 @@ def lattice():
     return table(['bone', 'lattice', 'memory', 'direct', 'memory'], lines)
 
 
-TURN = ('Load steps/Times=0, 1, 1.05', 'Load steps/Steps=1, 1', 'Load steps/Residual tolerance=1e-7', 'Output/Fields every=none',
+TURN = ('Load steps/Times=0, 1, 1.05', 'Load steps/Steps=1, 1', 'Expert/Load steps/Residual tolerance=1e-7', 'Output/Fields every=none',
         'Implant/Cells=12, 4') + LINEAR + LAYERED + OTHER_INTERFACE
-MULTIGRID = ('Bone/Solver=multigrid',)
+MULTIGRID = ('Expert/Bone/Solver=multigrid',)
 
 
 @functools.lru_cache(None)
@@ -1436,7 +1436,7 @@ def multigrid_splines():
 def multigrid_on_splines():
     """Largest difference of the torque on two processes from that of the lattice solver, over the largest torque."""
     changes = ('Bone/Cells=100, 100, 8', 'Implant/Cells=8, 4', 'Load steps/Adaptive=false', 'Load steps/Times=0, 1, 1.5', 'Load steps/Steps=1, 10',
-               'Load steps/Residual tolerance=1e-11', 'Output/Fields every=none')
+               'Expert/Load steps/Residual tolerance=1e-11', 'Output/Fields every=none')
     curves = []
     for ranks, more in ((0, ()), (2, MULTIGRID)):
         directory = directory_of('ranks %d' % ranks, ('prm/coin_mode3_spline.prm',) + changes + more)
@@ -1459,7 +1459,7 @@ def multigrid_crossover():
                 continue
             line = [cells.replace(', ', ' x ') + name, '%d k' % round(n_unknowns(cells) / 1000)]
             for solver in ('direct', 'multigrid'):
-                row = run_on(1, 'Bone/Cells=' + cells, 'Bone/Solver=' + solver, *CURVE, *changes)
+                row = run_on(1, 'Bone/Cells=' + cells, 'Expert/Bone/Solver=' + solver, *CURVE, *changes)
                 line += [two_digits(row['wall_seconds']), two_digits(row['peak_memory_MB'] / 1000)]
             lines.append(line + ['%d' % row['multigrid_systems'], '%d' % row['multigrid_cycles']])
     return table(['cells', 'unknowns', 'direct [s]', '[GB]', 'multigrid [s]', '[GB]', 'linear systems', 'cycles in all'], lines)

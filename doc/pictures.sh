@@ -43,12 +43,12 @@ publish() {
 
 # phases that end at the angles of the pictures have files there
 at_angles() {
-  "$DEBOND" prm/coin_mode3_fast.prm --force --set "Output/Fields every=1000000" --set Output/Console=quiet "$@"
+  "$DEBOND" prm/coin_mode3_fast.prm --force --set "Output/Fields every=1000000" --set Expert/Output/Console=quiet "$@"
 }
 
 # coins with maps that are smooth, of a scene that is otherwise that of the first run
 coin() {
-  "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Accuracy=none --set Output/Console=quiet --set "Output/Fields every=none" \
+  "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Accuracy=none --set Expert/Output/Console=quiet --set "Output/Fields every=none" \
     --set "Bone/Cells=30, 30, 2" --set Bone/Material=linear --set Implant/Material=linear "$@"
 }
 
@@ -64,9 +64,9 @@ half_bonded() {
           --set "Interface/Bonding/Correlation length=0.6")
         ;;
     esac
-    coin --set "Output/Directory=output/half_bonded/$name" --set "Output/Profile angles=0.1" --set "Load steps/Times=0, 1, 1.05, 2" \
-      --set "Load steps/Steps=1, 50, 95" --set "Implant/Cells=24, 2" --set "Interface/Quadrature points=3" \
-      --set "Interface/Bonding/Resolution=quadrature point" "${pattern[@]}"
+    coin --set "Output/Directory=output/half_bonded/$name" --set "Expert/Output/Profile angles=0.1" --set "Load steps/Times=0, 1, 1.05, 2" \
+      --set "Load steps/Steps=1, 50, 95" --set "Implant/Cells=24, 2" --set "Expert/Interface/Quadrature points=3" \
+      --set "Expert/Interface/Bonding/Resolution=quadrature point" "${pattern[@]}"
   done
   gnuplot doc/half_bonded.gp
   publish output/half_bonded/half_bonded
@@ -75,8 +75,8 @@ half_bonded() {
 film() {
   local angles python=${PYTHON:-python3}
   angles=$("$python" doc/film.py --angles)
-  coin --set Output/Directory=output/film --set "Output/Profile angles=$angles" \
-    --set "Load steps/Steps=1, 500" --set "Implant/Cells=12, 2" --set "Interface/Quadrature points=5"
+  coin --set Output/Directory=output/film --set "Expert/Output/Profile angles=$angles" \
+    --set "Load steps/Steps=1, 500" --set "Implant/Cells=12, 2" --set "Expert/Interface/Quadrature points=5"
   "$python" doc/film.py output/film --film doc/images/front.webm --still doc/images/front_film.png
   rm output/film/profiles.csv # a hundred megabytes
 }
@@ -88,11 +88,11 @@ bodies() {
     --set "Implant/Cells=8, 8" --set Output/Directory=output/stress
   pvpython doc/paraview/bodies.py stress output/stress --angles 0.5 2 --output output/stress.png
   at_angles --set "Load steps/Times=0, 1, 1.12, 1.2, 1.35, 1.7" --set "Load steps/Steps=1, 2, 2, 2, 4" \
-    --set "Interface/Quadrature points=20" --set Output/Directory=output/front
+    --set "Expert/Interface/Quadrature points=20" --set Output/Directory=output/front
   pvpython doc/paraview/debonding_front.py output/front --field mu slip_mm --angles 1.2 2 3.5 7 --width 1200 --output output/front.png
   "$DEBOND" prm/adhesion/coin_peeled.prm --force --set "Load steps/Times=0, 0.05, 0.1, 0.2, 0.5" --set "Output/Fields every=1000000" \
     --set "Load steps/Steps=15, 15, 30, 45" --set "Bone/Cells=30, 30, 6" --set "Implant/Cells=8, 4" \
-    --set Output/Directory=output/peeled --set Output/Console=quiet
+    --set Output/Directory=output/peeled --set Expert/Output/Console=quiet
   pvpython doc/paraview/debonding_front.py output/peeled --field state left_by_opening pressure_MPa --times 0.05 0.1 0.2 0.5 --width 1200 \
     --output output/peeled.png
   publish output/mesh output/stress output/front output/peeled
@@ -108,7 +108,7 @@ make_pictures() {
     half_bonded) half_bonded ;;
     film) film ;;
     report)
-      "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Output/Directory=output/report --set Output/Console=quiet
+      "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Output/Directory=output/report --set Expert/Output/Console=quiet
       chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1200,2000 --screenshot=output/report/report.png \
         "file://$PWD/output/report/report.html"
       convert output/report/report.png -crop 1200x1500+0+0 +repage doc/images/report.png # curve, values and the first maps

@@ -14,8 +14,8 @@
 #
 #   gnuplot -e "dir='output/coin'; reference='measured.csv'" doc/plot_torque.gp
 #
-# With the bonding state phi on the contact face below, from the profiles.csv of a run with Output / Profile angles:
-# faces='DIRECTORY', angles='1 1.5 2.5 5' [degrees] and points=9, its Interface / Quadrature points, as in doc/first_picture.sh.
+# With the bonding state phi on the contact face below, from the profiles.csv of a run with Expert / Output / Profile angles:
+# faces='DIRECTORY', angles='1 1.5 2.5 5' [degrees] and points=9, its Expert / Interface / Quadrature points, as in doc/first_picture.sh.
 
 if (!exists("dir")) {
   print "usage: gnuplot -e \"dir='output/coin'\" doc/plot_torque.gp"

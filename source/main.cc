@@ -477,8 +477,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     // run for the median of several.
     if (scene.study.repetitions > 1 || scene.study.factors_at_once > 0)
       throw scene.with_place(EntryError(
-        scene.study.repetitions > 1 ? "Study / Repetitions" :
-                                      "Study / Factors varied at once",
+        scene.study.repetitions > 1 ? "Expert / Study / Repetitions" :
+                                      "Expert / Study / Factors varied at once",
         "this is for studies, and no entry of this scene holds several "
         "values, {{a|b}}"));
     // A directory that holds results of another scene is left alone, unless the

@@ -105,7 +105,8 @@ class Drawn:
     def add_load(self):
         """Pressed, or a press fit, then moved until all slides, and what bond there is breaks."""
         r = self.number
-        self.set("Output", Fields_every="none", Report="false", Console="quiet")
+        self.set("Output", Fields_every="none", Report="false")
+        self.set("Expert/Output", Console="quiet")
         p = (r(1e-4, 6e-4) if self.in_bore else r(2e-5, 2e-4)) * self.E
         mu = self.of("Friction coefficient", self.of("Friction coefficient unbroken"))
         way = r(4, 10) * mu * p / self.soft + 4 * self.of("Characteristic slip distance")
@@ -187,11 +188,11 @@ def finer(cells, under, factor):
 def truth_of(run, options, seed):
     levels = options.levels if run.seconds < options.seconds / 40 else 1
     chosen, factor, more = run.entries(), 1.5 ** levels, {}
-    under = chosen["Bone/Cells under implant"]
+    under = chosen["Expert/Bone/Cells under implant"]
     if under != "none":
-        more["Bone/Cells under implant"] = math.ceil(factor * int(under))
+        more["Expert/Bone/Cells under implant"] = math.ceil(factor * int(under))
     in_bore = chosen["Bone/Shape"] != "block"
-    more["Bone/Cells"] = finer(chosen["Bone/Cells"], None if in_bore else more.get("Bone/Cells under implant", 0), factor)
+    more["Bone/Cells"] = finer(chosen["Bone/Cells"], None if in_bore else more.get("Expert/Bone/Cells under implant", 0), factor)
     more["Implant/Cells"] = finer(chosen["Implant/Cells"], None if in_bore else 0, factor)
     true = Run(options.debond, {**{name: value for name, value in chosen.items() if value}, **more, "Accuracy": "none",
                                 "Load steps/Tolerance": options.accuracy / 20}, f"{options.directory}/truth-{seed}", options.seconds)

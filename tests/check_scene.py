@@ -146,7 +146,7 @@ class Run:
         shutil.rmtree(directory, ignore_errors=True)
         threads = os.environ.get('DEBOND_TEST_THREADS')
         done = subprocess.run([debond, scene, '--force', *self.options, *(['--threads', threads] if threads else []),
-                               '--set', 'Output/Directory=' + directory, '--set', 'Output/Console=quiet',
+                               '--set', 'Output/Directory=' + directory, '--set', 'Expert/Output/Console=quiet',
                                '--set', 'Output/Report=false'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.results = read_results(directory)
         # a study of which variants have failed is judged by those that it has

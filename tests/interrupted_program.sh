@@ -134,7 +134,7 @@ echo "a checkpoint is kept: yes"
 
 # The variants have the same bodies, which they share.
 study() {
-  exec "$debond" scene.prm --set Output/Directory=results/study --set "Output/Checkpoint every=7" --jobs 2 --set "Interface/Normal stiffness={{585|1000|1800}}"
+  exec "$debond" scene.prm --set Output/Directory=results/study --set "Expert/Output/Checkpoint every=7" --jobs 2 --set "Interface/Normal stiffness={{585|1000|1800}}"
 }
 study > study.log 2>&1 &
 wait_for_lines results/study/variant-001/torque.csv 20

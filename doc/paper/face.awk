@@ -1,7 +1,7 @@
 # The points of one angle of a profiles.csv as rows of a grid over the contact face, which gnuplot draws as a surface without
 # gaps: values between points are interpolated, and jump where the elements meet that the pattern of bonding differs in.
 #   awk -v angle=1.15 -v points=5 -f doc/paper/face.awk DIR/profiles.csv
-# points: Interface / Quadrature points of the scene. The file lists points element by element, the first parameter fastest
+# points: Expert / Interface / Quadrature points of the scene. The file lists points element by element, the first parameter fastest
 # in elements and in points.
 BEGIN { FS = "," }
 NR == 1 { print; next }

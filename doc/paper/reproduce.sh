@@ -24,7 +24,7 @@ reproduce() {
     fig_4) run table_5; picture fig_4 table_5/fig_4.png ;;
     fig_5_6) run fig_5_6; picture fig_5_6 "fig_5_6/fig_5.png and fig_6.png" ;;
     fig_7_8) # a point every 0.04 mm, for smooth maps
-      run partial_fitted_parameters --set "Interface/Quadrature points=6" --set Output/Directory=output/paper/fig_7_8
+      run partial_fitted_parameters --set "Expert/Interface/Quadrature points=6" --set Output/Directory=output/paper/fig_7_8
       picture fig_7_8 "fig_7_8/fig_7.png, fig_8.png and fig_8_slip.png"
       ;;
     fig_9) run partial_fitted_parameters; picture fig_9 partial_fitted_parameters/fig_9.png ;;

@@ -71,7 +71,7 @@ fit() {
   stage load "$here/slope/fitted.prm" "$interface/Friction coefficient=$mu" "$unknown_depth" "Calibration/Windows=9, 10"
   stage peak "$here/load/fitted.prm" "$interface/Friction law=modified coulomb" "$unknown_mu" \
     "$interface/Characteristic slip distance=0.3" "Calibration/Windows=$peak"
-  stage fall "$here/peak/fitted.prm" "${unknown_law[@]}" "Calibration/Windows=none" "Calibration/Measure=$measure"
+  stage fall "$here/peak/fitted.prm" "${unknown_law[@]}" "Calibration/Windows=none" "Expert/Calibration/Measure=$measure"
   row "$label" "$mu" staged "$(value load d)" "$(value peak mu_ub)" fall slope
   stage once prm/coin_mode3_fast.prm "${base[@]}" "$unknown_depth" "$unknown_mu" "$unknown_eps" "${unknown_law[@]}"
   row "$label" "$mu" "at once" "$(value once d)" "$(value once mu_ub)" once once
@@ -88,10 +88,10 @@ for what in "${@:-1}"; do
   bonding=$interface/Bonding
   measure="least squares" # of these runs of seconds the mean of Eq. (19) takes some 70
   sharpest=0.2 # a fall that is more sudden goes in jumps, with steps without number
-  mesh=("Implant/Cells=20, 2" "$interface/Quadrature points=3" "Calibration/Starts=1")
-  part=("$bonding/Bonded fraction=0.55" "$bonding/Resolution=element")
+  mesh=("Implant/Cells=20, 2" "Expert/$interface/Quadrature points=3" "Expert/Calibration/Starts=1")
+  part=("$bonding/Bonded fraction=0.55" "Expert/$bonding/Resolution=element")
   fit "1, homogeneous" 1 0.40 "${mesh[@]}"
-  fit "1, (b)" 1 0.40 "${mesh[@]}" "$bonding/Pattern=image" "$bonding/File=prm/paper/data/bonding_pattern_b.png" "$bonding/Threshold=0.5"
+  fit "1, (b)" 1 0.40 "${mesh[@]}" "$bonding/Pattern=image" "$bonding/File=prm/paper/data/bonding_pattern_b.png" "Expert/$bonding/Threshold=0.5"
   fit "1, (c)" 1 0.40 "${mesh[@]}" "${part[@]}" "$bonding/Pattern=disk"
   fit "1, (d)" 1 0.40 "${mesh[@]}" "${part[@]}" "$bonding/Pattern=random" "$bonding/Seed=1"
 done

@@ -16,5 +16,5 @@ if grep -qs '"converged": true' "$directory/summary.json"; then
 elif compgen -G "$directory/checkpoint-?" > /dev/null; then
   srun build/release/debond --resume "$directory" --threads 1
 else
-  srun build/release/debond "$scene" --set "Output/Directory=$directory" --set "Output/Checkpoint every=10" --threads 1
+  srun build/release/debond "$scene" --set "Output/Directory=$directory" --set "Expert/Output/Checkpoint every=10" --threads 1
 fi

@@ -29,7 +29,7 @@ run() {
   local scene=$1 name=$2 options=()
   shift 2
   for override in "$@"; do options+=(--set "$override"); done
-  "$debond" "prm/stability/$scene.prm" --force --set "Output/Directory=$results/$name" --set Output/Console=quiet "${options[@]}"
+  "$debond" "prm/stability/$scene.prm" --force --set "Output/Directory=$results/$name" --set Expert/Output/Console=quiet "${options[@]}"
 }
 
 draw_pictures() {
@@ -42,7 +42,7 @@ draw_pictures() {
     run softening explicit_$steps "Expert/Friction update=explicit" "Load steps/Steps=1, $steps"
   done
   run chatter nurbs "Load steps/Steps=1, 80"
-  run chatter bilinear "Bone/Contact surface=bilinear" "Load steps/Steps=1, 80"
+  run chatter bilinear "Expert/Bone/Contact surface=bilinear" "Load steps/Steps=1, 80"
   echo "penalty_MPa_per_mm,iterations" > $results/penalty.csv
   for penalty in 6 60 600 1800 18000 60000 180000 600000; do
     run coin penalty "Interface/Normal stiffness=$penalty" "Interface/Tangential stiffness=auto"

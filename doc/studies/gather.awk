@@ -4,12 +4,12 @@
 BEGIN {
   chosen["Model"] = "finite elements"
   chosen["Bone / Cells"] = "30, 30, 4"
-  chosen["Bone / Layer grading"] = "1.5"
-  chosen["Bone / Cells under implant"] = "0"
-  chosen["Bone / Coarser below"] = "false"
+  chosen["Expert / Bone / Layer grading"] = "1.5"
+  chosen["Expert / Bone / Cells under implant"] = "0"
+  chosen["Expert / Bone / Coarser below"] = "false"
   chosen["Bone / Material"] = "linear"
-  chosen["Bone / Contact surface"] = "nurbs"
-  chosen["Interface / Slave"] = "implant"
+  chosen["Expert / Bone / Contact surface"] = "nurbs"
+  chosen["Expert / Interface / Slave"] = "implant"
   chosen["Load steps / Steps"] = "1, 10, 10"
   chosen["Load steps / Adaptive"] = "true"
   chosen["Load steps / Tolerance"] = "1e-3"
@@ -40,7 +40,7 @@ function value(name) { return name in number ? field[number[name]] : chosen[name
 FNR == 1 {
   splines = FILENAME ~ /splines/
   quadratic = FILENAME ~ /quadratic/
-  chosen["Interface / Quadrature points"] = splines ? 6 : 5
+  chosen["Expert / Interface / Quadrature points"] = splines ? 6 : 5
   delete number
   n = fields($0, field)
   for (i = 1; i <= n; i++) number[field[i]] = i
@@ -53,8 +53,8 @@ FNR == 1 {
   closed = value("Model") != "finite elements"
   tier = closed ? value("Model") : splines ? "splines" : quadratic ? "quadratic" : value("Bone / Material")
   split(value("Bone / Cells"), cells, ", "); split(value("Implant / Cells"), implant_cells, ", ")
-  mesh = closed ? "none" : !splines && !quadratic ? mesh_name[cells[1]] : value("Bone / Cells under implant") + 0 > 0 ? "graded to the rim" : "equal cells"
-  layers = closed ? "none" : cells[3] (value("Bone / Layer grading") == 1 ? " equal" : "")
+  mesh = closed ? "none" : !splines && !quadratic ? mesh_name[cells[1]] : value("Expert / Bone / Cells under implant") + 0 > 0 ? "graded to the rim" : "equal cells"
+  layers = closed ? "none" : cells[3] (value("Expert / Bone / Layer grading") == 1 ? " equal" : "")
   if (value("Load steps / Adaptive") == "true" && !closed) steps = "tol. " value("Load steps / Tolerance")
   else {
     phases = split(value("Load steps / Steps"), count, ", ")
@@ -62,15 +62,15 @@ FNR == 1 {
     for (i = 2; i <= phases; i++) steps += count[i]
     steps = steps " steps"
   }
-  points = value("Interface / Quadrature points")
-  surface = value("Bone / Contact surface"); slave = value("Interface / Slave")
+  points = value("Expert / Interface / Quadrature points")
+  surface = value("Expert / Bone / Contact surface"); slave = value("Expert / Interface / Slave")
   # what differs from the usual choice
   label = tier
   if (tier == "prescribed angles") label = label (value("Closed form / Slip counts from angle") == 1.13 ? "; printed angles" : "; own angles")
   if (splines || quadratic) {
     label = label (value("Bone / Material") == "linear" ? "" : " " value("Bone / Material")) "; " cells[1] " x " cells[2] " x " cells[3] " / " \
       implant_cells[1] " x " implant_cells[1] " x " implant_cells[2] (mesh == "equal cells" ? "" : " " mesh) \
-      (value("Bone / Coarser below") == "true" ? " coarser below" : "")
+      (value("Expert / Bone / Coarser below") == "true" ? " coarser below" : "")
   } else if (!closed && tier != "rigid") label = label "; " mesh "; " layers " layers"
   label = label "; " steps
   if (!closed && !splines && !quadratic && points != 5) label = label "; " points "x" points " points"

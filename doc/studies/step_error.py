@@ -30,7 +30,7 @@ SHEAR = '0.02 * min(max(t - 1, 0), 1)'
 SHEAR_THEN_TWIST = {'Translation x': SHEAR, 'Rotation z': '2 * max(t - 2, 0)'}
 STIFFNESS = {'Interface/Normal stiffness': '585', 'Interface/Tangential stiffness': 'auto'}  # that of the scenes for CalculiX
 BOND = {**STIFFNESS, 'Interface/Friction coefficient unbroken': '0.58', 'Interface/Characteristic slip distance': '0.022'}
-COARSE = {**BOND, 'Bone/Cells': '12, 12, 3', 'Implant/Cells': '4, 2', 'Bone/Layer grading': '1.5', 'Implant/Layer grading': '1.5',
+COARSE = {**BOND, 'Bone/Cells': '12, 12, 3', 'Implant/Cells': '4, 2', 'Expert/Bone/Layer grading': '1.5', 'Expert/Implant/Layer grading': '1.5',
           'Bone/Material': 'linear', 'Implant/Material': 'linear'}
 RIGID = {**BOND, 'Bone/Material': 'rigid', 'Implant/Material': 'rigid', 'Implant/Cells': '12, 2'}
 # label, phases after the first one, motion, entries
@@ -38,7 +38,7 @@ CASES = [
     ('rigid bodies: shear then twist', 2, SHEAR_THEN_TWIST, RIGID),
     ('shear then twist', 2, SHEAR_THEN_TWIST, COARSE),
     ('trial', 2, SHEAR_THEN_TWIST, {**COARSE, 'Expert/Slip direction': 'trial'}),
-    ('the same with the bone as slave', 2, SHEAR_THEN_TWIST, {**COARSE, 'Interface/Slave': 'bone'}),
+    ('the same with the bone as slave', 2, SHEAR_THEN_TWIST, {**COARSE, 'Expert/Interface/Slave': 'bone'}),
     ('a cap', 2, SHEAR_THEN_TWIST, {**COARSE, 'Implant/Shape': 'cap'}),
     ('pressed and turned at once', 1, {'Press': '0.0049 * min(t, 1) + 0.003 * max(t - 1, 0)', 'Translation x': '0.01 * max(t - 1, 0)',
                                        'Rotation z': '2 * max(t - 1, 0)'}, COARSE),
@@ -75,7 +75,7 @@ def run(name, entries):
     directory = '%s/%s' % (RESULTS, name)
     if FORCE or not os.path.exists(directory + '/summary.json'):
         command = [DEBOND, 'prm/paper/main_scene.prm', '--force']
-        for entry in entries + ['Output/Directory=' + directory, 'Output/Fields every=none', 'Output/Console=quiet']:
+        for entry in entries + ['Output/Directory=' + directory, 'Output/Fields every=none', 'Expert/Output/Console=quiet']:
             command += ['--set', entry]
         timed(command, directory)
     return directory

@@ -77,7 +77,7 @@ def make_references():
 def family(row):
     if row['Bone / Cells'].startswith('fitted'):
         return 'splines that follow the rim'
-    graded = ' graded to the rim' if row['Bone / Cells under implant'] != 'none' else ''
+    graded = ' graded to the rim' if row['Expert / Bone / Cells under implant'] != 'none' else ''
     return {'trilinear': 'trilinear', 'quadratic': 'quadratic', 'spline': 'splines'}[row['Bone / Element']] + graded
 
 

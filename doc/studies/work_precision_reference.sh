@@ -46,10 +46,10 @@ curve 3 4 "Constant friction, mu = 0.58, up to 1 degree." > "$data/work_precisio
 
 # The coarser solution of the local values again, with the finer one as its reference.
 "$debond" prm/studies/work_precision_scene.prm --force --set "Bone/Cells=140, 140, 10" --set "Implant/Cells=24, 10" \
-  --set Bone/Element=spline --set Implant/Element=spline --set "Bone/Layer grading=2" --set "Implant/Layer grading=2" \
-  --set "Interface/Quadrature points=8" --set "Load steps/Times=0, 1, 1.1, 2" --set "Load steps/Steps=1, 40, 20" \
-  --set "Load steps/Adaptive=false" --set "Output/Reference profiles=$results/variant-001/profiles.csv" \
-  --set "Output/Directory=$results/local" --set Output/Console=quiet
+  --set Bone/Element=spline --set Implant/Element=spline --set "Expert/Bone/Layer grading=2" --set "Expert/Implant/Layer grading=2" \
+  --set "Expert/Interface/Quadrature points=8" --set "Load steps/Times=0, 1, 1.1, 2" --set "Load steps/Steps=1, 40, 20" \
+  --set "Load steps/Adaptive=false" --set "Expert/Output/Reference profiles=$results/variant-001/profiles.csv" \
+  --set "Output/Directory=$results/local" --set Expert/Output/Console=quiet
 local=$(awk -F '[:,]' '/"(pressure|slip)_difference_rms"/ { value[++n] = $2 }
   END { printf "%.1e of the mean pressure, %.1e of the mean sliding distance", value[1], value[2] }' "$results/local/summary.json")
 

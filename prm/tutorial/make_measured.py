@@ -35,7 +35,7 @@ def random_numbers(seed):
 
 def main():
     directory = "output/tutorial/made_up"
-    entries = {**true, "Output/Directory": directory, "Output/Fields every": 0, "Output/Console": "quiet",
+    entries = {**true, "Output/Directory": directory, "Output/Fields every": 0, "Expert/Output/Console": "quiet",
                "Chuck/Rotation z/Value": "11 * max(t - 1, 0)", "Load steps/Tolerance": 1e-4}
     sets = [text for entry, value in entries.items() for text in ("--set", f"{entry}={value}")]
     subprocess.run([sys.argv[1], "prm/tutorial/implant.prm", "--force", *sets], check=True)

@@ -13,6 +13,7 @@ import _debond
 from . import intervals
 from .errors import RunError
 from .executors import check_workers
+from .experiment import entry_of
 from .files import csv_text, digest_of, heeding, make_directory, say, write_json, write_whole
 from .fit import fit_problem, problem_of
 from .measurement import rows_in_words, unit_doubt
@@ -32,9 +33,9 @@ def _rigs(done):
     for experiment in problem.experiments:
         rig, held = experiment.changes(done.values)[1], problem.unknowns.entries(experiment.number, done.values)
         said = {entry.name for entry in experiment.given}
-        result.append({name: {"value": value, "unit": _debond.unit_of("Calibration / " + name),
-                              "fitted": "Calibration / " + name in held}
-                       for name, value in rig.items() if "Calibration / " + name in said})
+        result.append({name: {"value": value, "unit": _debond.unit_of(entry_of(name)),
+                              "fitted": entry_of(name) in held}
+                       for name, value in rig.items() if entry_of(name) in said})
     return result
 
 
@@ -118,7 +119,7 @@ def save(done, directory):
     for experiment in problem.experiments:
         write_whole(os.path.join(directory, _numbered("fitted", ".prm", experiment.number, n)),
                     _fitted_scene(done, experiment, directory, n))
-    if problem.values["Calibration / Profiles"] == "true":
+    if problem.values["Expert / Calibration / Profiles"] == "true":
         rows = ([name, value, chi_squared, *unknowns] for name, profile in done.profiles().items()
                 for value, chi_squared, unknowns in zip(*profile.values()))
         write_whole(os.path.join(directory, "profile.csv"), csv_text(["unknown", "value", "chi_squared", *done.names], rows))
@@ -166,7 +167,7 @@ def _identity(scene, problem):
 def why_it_does_not_fit(done) -> str:
     """Text if a Fit is further from what was measured than its scene accepts; else none."""
     problem = done.problem
-    largest = float(problem.values["Calibration / Largest misfit"])
+    largest = float(problem.values["Expert / Calibration / Largest misfit"])
     if not done.e_rel > largest:  # no number if no row is used
         return ""
     curve, doubts = done.optima[0].curve, ""
@@ -174,7 +175,7 @@ def why_it_does_not_fit(done) -> str:
         doubt = unit_doubt(series.name, series.column.unit, series.scale, abs(curve[series.slice]).max(), "fit", 2)
         doubts += doubt and "; " + doubt
     return (f"no parameters of this scene fit the measured curve: the best ones leave e_rel = {100 * done.e_rel:.3g} %, more "
-            f"than Calibration / Largest misfit, {100 * largest:.3g} %" + doubts
+            f"than Expert / Calibration / Largest misfit, {100 * largest:.3g} %" + doubts
             + ("; a minus before their unit in Reference columns turns values of the opposite sign" if problem.measured @ curve < 0 else ""))
 
 
@@ -186,7 +187,7 @@ def calibrate(scene, threads: int = 1, force: bool = False, *, executor=None, sa
     scene = scene if isinstance(scene, Scene) else Scene(scene)
     problem = problem_of(scene)
     directory = problem.values["Output / Directory"]
-    say = heeding(problem.values["Output / Console"], say)
+    say = heeding(problem.values["Expert / Output / Console"], say)
     lock = _debond.claim_directory(problem.experiments[0].scene, _identity(scene, problem), force)
     log = os.path.join(directory, "evaluations.jsonl")
     if force:

@@ -24,6 +24,11 @@ _RIG = {"deg": ("Angle offset", "Slack", "Machine compliance"), "N mm": ("Torque
         "mm": ("Displacement offset", "Displacement slack", "Displacement compliance"), "N": ("Force offset", "Force drift")}
 
 
+def entry_of(name):
+    """The full name of an entry of Calibration."""
+    return ("Expert / " if name == "Seed" or name.endswith("drift") else "") + "Calibration / " + name
+
+
 def _rigs_of(columns):
     """For each column the entries that change what an instrument shows of it: of several in the same unit the first."""
     rigs = [_RIG.get(column.unit, ()) for column in columns]
@@ -71,7 +76,7 @@ class Experiment:
         self.is_finite_elements = self.values["Model"] == "finite elements"
         self._held_in = [self._entries_with(j) for j in range(len(unknowns.list))]
         # others change what the rig shows
-        self.changes_model = [any(not name.startswith("Calibration / ") for name in names) for names in self._held_in]
+        self.changes_model = [any("Calibration / " not in name for name in names) for names in self._held_in]
         self.why_no_closed_form = self._find_why_no_closed_form()
         self._centre, self._settled = None, {}
 
@@ -93,8 +98,8 @@ class Experiment:
         """Entries of the scene but for those of Calibration, as pairs (full name, text), and the rig's numbers."""
         entries = self.unknowns.entries(self.number, values)
         every = {**self.values, **entries}
-        rig = {name: float(every["Calibration / " + name]) for names in _RIG.values() for name in names}
-        return tuple((name, text) for name, text in entries.items() if not name.startswith("Calibration / ")), rig
+        rig = {name: float(every[entry_of(name)]) for names in _RIG.values() for name in names}
+        return tuple((name, text) for name, text in entries.items() if "Calibration / " not in name), rig
 
     def scene_of(self, values):
         """The scene with these values of the unknowns."""
@@ -125,16 +130,16 @@ class Experiment:
         """What is to be said before a fit: of the file, and of entries of Calibration that nothing reads."""
         used = set().union(*self.rigs)
         readers = {name: f"what is measured in {unit}" for unit, names in _RIG.items() for name in names if name not in used}
-        if self.values["Calibration / Measure"] == "least squares":
-            readers["Seed"] = "Measure = e_mp or e_rel"
-        if measurement.given(self.values["Calibration / Noise columns"]):
-            readers["Noise"] = "Noise columns = none"
+        if self.values["Expert / Calibration / Measure"] == "least squares":
+            readers["Seed"] = "Expert / Calibration / Measure = e_mp or e_rel"
+        if measurement.given(self.values["Expert / Calibration / Noise columns"]):
+            readers["Noise"] = "Expert / Calibration / Noise columns = none"
         # what an included file sets is for several scenes
         own = {entry.name: entry.value for entry in self.given
                if ":" not in entry.place or entry.place.startswith(self.name + ":")}
         return self.measured.remarks + [
             f"{full} = {own[full]} has no effect in this scene: it is for {reader}"
-            for name, reader in readers.items() for full in ["Calibration / " + name]
+            for name, reader in readers.items() for full in [entry_of(name)]
             if own.get(full, "0") not in ("0", "auto")]
 
     def _entries_with(self, j):

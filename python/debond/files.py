@@ -23,7 +23,7 @@ def say(text, file=None, end="\n") -> None:
 
 
 def heeding(console, say):
-    """What says texts to `say`, warnings alone if Output / Console, whose value is given, is quiet."""
+    """What says texts to `say`, warnings alone if Expert / Output / Console, whose value is given, is quiet."""
     return say if console != "quiet" else lambda text: say(text) if text.startswith("warning") else None
 
 

@@ -63,8 +63,8 @@ def _check(problem):
     if not problem.noise_is_known and n <= k:
         refuse("Output / Reference curve", f"{n} measured values for {k} unknowns do not tell how well they fit: give more, or "
                                            "Calibration / Noise")
-    if problem.values["Calibration / Profiles"] == "true" and problem.measure != "least squares":
-        refuse("Calibration / Profiles", "profiles are those of Measure = least squares")
+    if problem.values["Expert / Calibration / Profiles"] == "true" and problem.measure != "least squares":
+        refuse("Expert / Calibration / Profiles", "profiles are those of Expert / Calibration / Measure = least squares")
     for experiment in problem.experiments:
         experiment.check_bounds()
 
@@ -104,7 +104,7 @@ def find_optima(problem, say=lambda text: None):
     """Optima with different curves, best first, and whether the closed form has found them. Searches with the closed form where
     there is one, and from there with the scene's own model; with that alone where the closed form says no to all starts."""
     clock, model = time.time(), problem.values["Model"]
-    n_starts = int(problem.values["Calibration / Starts"])
+    n_starts = int(problem.values["Expert / Calibration / Starts"])
     closed = not problem.why_no_closed_form
     optima = _from_starts(problem, n_starts, FOLLOWED, True) if closed else []
     by_closed_form = model == "foundation" and closed

@@ -95,7 +95,7 @@ def tell(problem, best, derivatives):
     k, variance = len(at), _sandwich(problem, J, finite, noises)
     quantiles, half_widths = numpy.full(k, stats.norm.isf(0.5 * (1 - CONFIDENCE))), numpy.full(k, numpy.inf)
     if problem.measure != "least squares":
-        estimates = _magnitude_estimates(problem, J, noises, numpy.random.default_rng(int(problem.values["Calibration / Seed"])))
+        estimates = _magnitude_estimates(problem, J, noises, numpy.random.default_rng(int(problem.values["Expert / Calibration / Seed"])))
         variance = estimates.T @ estimates / len(estimates)
         half_widths[told] = numpy.quantile(abs(estimates), CONFIDENCE, axis=0)[told]
     for j in numpy.flatnonzero(told):

@@ -8,13 +8,14 @@ import numpy
 import _debond
 
 from .errors import RunError, SceneError
+from .experiment import entry_of
 from .measurement import given
 from .page_data import numbers
 
 # Numbers of a test, without those of meshes and of what is drawn by chance; the scene says which of them it does not read.
-_NUMBERS = re.compile("Implant / (Radius|Inner radius|Cap radius|Height|Taper angle|Pitch|Thread depth|Size)|Bone / Outer radius|(Bone|Implant) / (Young modulus|Poisson ratio)"
+_NUMBERS = re.compile("(Expert / )?(Implant / (Radius|Inner radius|Cap radius|Height|Taper angle|Pitch|Thread depth|Size)|Bone / Outer radius|(Bone|Implant) / (Young modulus|Poisson ratio)"
                       "|Interface / (?!Quadrature|Friction starts|Bonding / )|Interface / Bonding / Bond|Closed form / (Normal|Torsional) stiffness"
-                      "|Chuck / .*(Stiffness|/ Value)")
+                      "|Chuck / .*(Stiffness|/ Value))")
 _SHARES = ("Bonding degree", "Bonded fraction", "Adhesive friction")  # at most 1
 _COMPONENTS = [f"{motion} {axis}" for motion in ("Translation", "Rotation") for axis in "xyz"]
 _JUMP = 0.05  # of the largest value, which 1 % of a number changes where a jump moves
@@ -54,7 +55,7 @@ def _changes(fit):
         if _NUMBERS.match(entry) and entry not in held and not _moves_along(experiment, entry):
             result += [(entry, text, _unit_of(entry, values), *change) for change in [_changed_number(entry, given(text))] if change]
     for name, size, part in _changes_of_rig(fit, experiment):
-        entry = "Calibration / " + name
+        entry = entry_of(name)
         if entry not in held:
             unit = _debond.unit_of(entry)
             result.append((entry, values[entry], unit, f"+{size:.2g} {unit}, {part}", repr(float(values[entry]) + float(size))))

@@ -66,7 +66,8 @@ def _recognised_column(table, name, quantity, example, columns_entry):
     found = ([(i, 1.0, "", name) for i, other in enumerate(table.names) if other == name] or
              [(i, unit.factor, "", table.names[i]) for i, unit in enumerate(units) if unit and unit.quantity == quantity])
     if len(found) != 1:
-        choice = f"'set {columns_entry.rsplit('/ ', 1)[-1]} = {example}'"
+        section, _, entry = columns_entry.rpartition(" / ")
+        choice = f"'set {entry} = {example}'" + f" in {section}" * section.startswith("Expert")
         if columns_entry.startswith("--"):
             choice = f'{columns_entry} "{example}"'
         table.refuse(f"{'more than one' if found else 'no'} column has a unit that says {UNITS[quantity]}: "

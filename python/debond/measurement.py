@@ -196,9 +196,9 @@ def _used_rows(scene, values, columns, over, table, choice, branch, reach, compl
         scene.refuse("Calibration / Windows", f"{values[ENTRY]}: none {of} is in them")
     counts = {"rows": len(places), "used": len(used), "outside_windows": int((window < 0).sum()),
               "at_rest_or_turns": int((window >= 0).sum() - could.sum()), "beyond_scene": int(could.sum() - len(used))}
-    if len(used) < max(1, float(values["Calibration / Smallest share of rows"]) * could.sum()):
+    if len(used) < max(1, float(values["Expert / Calibration / Smallest share of rows"]) * could.sum()):
         why = (f"is {over.name} in the unit that the file says, and does the scene go as far as the test? Calibration / Windows leaves out "
-               "what is not to be fitted, a smaller Calibration / Smallest share of rows takes these rows")
+               "what is not to be fitted, a smaller Expert / Calibration / Smallest share of rows takes these rows")
         if 2 * (could & (-implant >= least) & (-implant <= most)).sum() > could.sum():
             why = ("they have the opposite sign. Turn the load of the scene round, or the values by a minus before their unit, 'set Reference "
                    f"columns = {_with_other_sign(choice, table, columns, over)}'")
@@ -275,7 +275,7 @@ def _read(scene, file, names, columns, columns_entry="Output / Reference columns
 
 def _stated_noise(scene, values, columns, used, scale):
     """Standard deviations as the scene states them (n x curves), or None."""
-    choice, entry = _list_of(values["Calibration / Noise columns"]), "Calibration / Noise columns"
+    choice, entry = _list_of(values["Expert / Calibration / Noise columns"]), "Expert / Calibration / Noise columns"
     if not choice:
         noise = numpy.array(stated_noise(values))
         return numpy.tile(noise * scale, (len(used), 1)) if noise[0] > 0 else None

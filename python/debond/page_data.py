@@ -15,8 +15,8 @@ UNITS = (("_Nmm_per_rad", "N mm/rad"), ("_MPa_per_mm", "MPa/mm"), ("_N_per_m", "
 
 #: What `auto` stands for, but for what Accuracy chooses.
 USUAL = {"Bone / Cells": "15, 15, 2", "Implant / Cells": "3, 2", "Load steps / Steps": "1, 1000", "Load steps / Adaptive": "false",
-         "Load steps / Tolerance": "0.001", **{f"{body} / {name}": text for body in ("Bone", "Implant") for name, text in
-                                               (("Material", "neo-hookean"), ("Element", "trilinear"), ("Layer grading", "1"))}}
+         "Load steps / Tolerance": "0.001", **{entry.format(body): text for body in ("Bone", "Implant") for entry, text in
+                                               (("{} / Material", "neo-hookean"), ("{} / Element", "trilinear"), ("Expert / {} / Layer grading", "1"))}}
 
 
 class NoResults(InputError):

@@ -65,7 +65,7 @@ def curve_of(directory, summary, entries):
         plot.band("estimated error", xs, [y - e for y, e in zip(ys, errors)], [y + e for y, e in zip(ys, errors)], "#0072b2")
     plot.add("debond", "line", xs, ys, "#0072b2", errors=errors)
     if "curve" not in summary:
-        add_marks_of_torque(plot, xs, ys, summary, entries.get("Output / Reference marks", ""))
+        add_marks_of_torque(plot, xs, ys, summary, entries.get("Expert / Output / Reference marks", ""))
     elif xs:
         add_mark(plot, "largest", number(summary["curve"]["at"]), number(summary["curve"]["largest"]))
     return plot.context()

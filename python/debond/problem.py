@@ -101,7 +101,7 @@ class Problem:
         self.unknowns, self.experiments, self.runs = unknowns, experiments, runs
         self.done = [experiment for experiment in experiments if experiment.is_done]
         self.values = experiments[0].values
-        self.measure = self.values["Calibration / Measure"]
+        self.measure = self.values["Expert / Calibration / Measure"]
         self.steps, self.halvings = {id(experiment): () for experiment in experiments}, 0  # of steps that are chosen
         self.series, first = [], 0
         for experiment in self.done:

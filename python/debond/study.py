@@ -30,7 +30,7 @@ from .variants import is_varied, variants_of
 
 
 #: What only the study uses must not make another scene of a variant.
-OF_THE_STUDY = ("Study/Reference variant=none", "Study/Factors varied at once=all", "Study/Repetitions=1", "Output/Console=quiet",
+OF_THE_STUDY = ("Study/Reference variant=none", "Expert/Study/Factors varied at once=all", "Expert/Study/Repetitions=1", "Expert/Output/Console=quiet",
                 "Output/Report=false")
 ALONE = _debond.Team(0)
 
@@ -190,9 +190,9 @@ class Study:
         first = _scene(variants[0].entries, name, "variant-001")
         values = first.values
         self.directory, self.reports = values["Output / Directory"], values["Output / Report"] == "true"
-        self.say = heeding(values["Output / Console"], say)
-        self.n_repetitions = int(values["Study / Repetitions"])
-        at_once, reference = (values["Study / " + entry] for entry in ("Factors varied at once", "Reference variant"))
+        self.say = heeding(values["Expert / Output / Console"], say)
+        self.n_repetitions = int(values["Expert / Study / Repetitions"])
+        at_once, reference = values["Expert / Study / Factors varied at once"], values["Study / Reference variant"]
         if at_once != "all":
             variants = variants_of(entries, int(at_once))
         self.reference = 0 if reference == "none" else int(reference)

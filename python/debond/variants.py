@@ -113,7 +113,7 @@ def variants_of(entries, factors_at_once=0) -> List[Variant]:
     choices = [_choice(entry) for entry in entries if is_varied(entry)]
     for choice in choices:
         if choice.by_run and factors_at_once:
-            choice.entry.refuse("{{a||b}} has a value for every variant and cannot be one of the factors of Study / Factors varied "
+            choice.entry.refuse("{{a||b}} has a value for every variant and cannot be one of the factors of Expert / Study / Factors varied "
                                 "at once: expected {{a|b|c}} or {{name: a|b|c}}")
     variants = []
     for i in range(_combine(choices)):

@@ -358,7 +358,7 @@ namespace Debond
       }
     for (unsigned int rank = 0; rank < n_ranks; ++rank)
       if (std::count(owner.begin(), owner.end(), rank) == 0)
-        throw EntryError("Bone / Solver",
+        throw EntryError("Expert / Bone / Solver",
                          std::to_string(n_ranks) + " processes cannot share " +
                            std::to_string(all_cells.size()) +
                            " cells: expected fewer");

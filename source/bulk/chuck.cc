@@ -70,7 +70,7 @@ namespace Debond
         "cubics. With an angle (deg, rad) in place of the time, values are "
         "over the angle that Rotation z prescribes. `none': no table.");
       table.add(
-        "File columns",
+        "Expert / File columns",
         component.columns,
         Allowed::text("two columns, the time or angle and the value", false)
           .or_word_for("auto", ""),

@@ -35,7 +35,8 @@ namespace Debond
                                    {abscissa_of(component),
                                     chuck.file_column(k)},
                                    component.columns,
-                                   chuck.entry_name(k, "File columns"));
+                                   "Expert / " +
+                                     chuck.entry_name(k, "File columns"));
       };
       try
         {

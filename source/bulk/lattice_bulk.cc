@@ -209,7 +209,7 @@ namespace Debond
             const bool         is_at_side =
               i == 0 || i > across[0].n || j == 0 || j > across[1].n;
             if (is_at_side && control_points[A])
-              throw EntryError("Bone / Solver",
+              throw EntryError("Expert / Bone / Solver",
                                "the implant comes to the side of the bone, "
                                "where this solver has no unknowns: expected "
                                "direct, or a wider Bone / Size");

@@ -70,10 +70,10 @@ namespace Debond
     if (scene.model != ModelKind::finite_elements ||
         (Ranks::number() == 1 && scene.bulk_solver() == BulkSolver::multigrid))
       return "";
-    static const std::regex of_bodies(
-      "(Bone|Implant) / [^/]*|Interface / (Slave|Quadrature points)");
-    std::string text;
-    Chuck       chuck(scene.chuck,
+    static const std::regex of_bodies("(Expert / )?((Bone|Implant) / [^/]*|"
+                                      "Interface / (Slave|Quadrature points))");
+    std::string             text;
+    Chuck                   chuck(scene.chuck,
                 scene.chuck.place(scene.implant.geometry().chuck_height),
                 scene.implant.characteristic_radius());
     chuck.place(scene.load_steps.times.front());

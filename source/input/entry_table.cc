@@ -8,6 +8,13 @@
 
 namespace Debond
 {
+  namespace
+  {
+    const std::string expert = "Expert / "; // before names
+  }
+
+
+
   void
   EntryTable::enter_subsection(const std::string &name)
   {
@@ -31,7 +38,12 @@ namespace Debond
                   const AllowedValues                            &allowed,
                   const std::string                              &documentation)
   {
-    const SceneEntry  entry{path, name, value, ""};
+    SceneEntry entry{path, name, value, ""};
+    if (name.rfind(expert, 0) == 0)
+      {
+        entry.name = name.substr(expert.size());
+        entry.subsections.insert(entry.subsections.begin(), "Expert");
+      }
     const std::string refusal = allowed.refusal(value);
     if (!refusal.empty())
       entry.refuse(refusal);
@@ -109,8 +121,8 @@ namespace Debond
 
 
 
-  // A similar name in the same subsection, the same name or a similar one
-  // elsewhere, or a longer name that contains this one.
+  // A similar name in the same subsection, `Expert' left aside, the same name
+  // or a similar one elsewhere, or a longer name that contains this one.
   std::string
   EntryTable::likely_name(const SceneEntry &entry) const
   {
@@ -118,6 +130,10 @@ namespace Debond
     // to compare a very long text with all names takes very long
     if (entry.full_name().size() > 200)
       return "";
+    std::string section =
+      entry.full_name().substr(0, entry.full_name().size() - name.size());
+    if (section.rfind(expert, 0) == 0)
+      section.erase(0, expert.size());
     std::string  likely;
     unsigned int smallest = std::max<std::size_t>(3, name.size() / 3 + 1);
     for (const Row &row : rows)
@@ -127,7 +143,7 @@ namespace Debond
           name.size() > 3 && other.name.find(name) != std::string::npos;
         const unsigned int distance =
           std::min(edit_distance(other.name, name), contains ? 1U : 1000U) +
-          (other.subsections == entry.subsections ? 0 : 1);
+          (other.full_name() == placed(section + other.name) ? 0 : 1);
         if (distance < smallest)
           {
             smallest = distance;
@@ -195,12 +211,23 @@ namespace Debond
 
 
 
+  std::string
+  EntryTable::placed(const std::string &full_name) const
+  {
+    return row_of(expert + full_name) ? expert + full_name : full_name;
+  }
+
+
+
   std::vector<SceneEntry>
   EntryTable::entries() const
   {
     std::vector<SceneEntry> result;
     for (const Row &row : rows)
       result.push_back(row.entry);
+    std::stable_partition(result.begin(), result.end(), [](const auto &entry) {
+      return entry.full_name().rfind(expert, 0) != 0;
+    });
     return result;
   }
 
@@ -210,10 +237,13 @@ namespace Debond
   EntryTable::explained(const std::vector<SceneEntry> &values) const
   {
     std::vector<std::string> documentation;
-    for (const Row &row : rows)
-      documentation.push_back(row.documentation +
-                              (row.allowed.has_default ? "" : "\nNo default.") +
-                              "\nAllowed: " + row.allowed.description);
+    for (const SceneEntry &entry : values)
+      {
+        const Row &row = *row_of(entry.full_name());
+        documentation.push_back(
+          row.documentation + (row.allowed.has_default ? "" : "\nNo default.") +
+          "\nAllowed: " + row.allowed.description);
+      }
     return scene_text(values, documentation);
   }
 } // namespace Debond

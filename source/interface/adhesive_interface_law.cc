@@ -52,7 +52,7 @@ namespace Debond
                   Allowed::number_between(0, 1, ""),
                   "c, dimensionless: share of the strength that is added to "
                   "the pressure in friction, mu (p + c phi t_0).");
-        table.add("Opening viscosity",
+        table.add("Expert / Opening viscosity",
                   eta,
                   Allowed::number_between(1e-15,
                                           1e15,

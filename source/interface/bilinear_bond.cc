@@ -49,10 +49,11 @@ namespace Debond
               power_law,
               Allowed::choice("benzeggagh-kenane | power law"),
               "How the fracture energies of both modes combine. "
-              "`benzeggagh-kenane': G_I + (G_II - G_I) B^Exponent, with B = "
+              "`benzeggagh-kenane': G_I + (G_II - G_I) B^n, with B = "
               "delta_t^2 / delta^2. `power law': the energies of both modes, "
-              "divided by G_I and G_II and raised to Exponent, add up to 1.");
-    table.add("Exponent",
+              "divided by G_I and G_II and raised to n, add up to 1. n: "
+              "Expert / Interface / Mixed mode / Exponent.");
+    table.add("Expert / Exponent",
               exponent,
               Allowed::number_between(1, 10, ""),
               "Exponent of the criterion, dimensionless.");
@@ -84,7 +85,7 @@ namespace Debond
     check_mode("I", G_I, "Normal strength", N);
     check_mode("II", G_II, "Shear strength", T);
     if (least_ratio() <= 1.)
-      throw EntryError("Interface / Mixed mode / Exponent",
+      throw EntryError("Expert / Interface / Mixed mode / Exponent",
                        "under a mixture of modes a bond would be broken "
                        "before it is damaged: expected a smaller one, a "
                        "larger Stiffness or larger fracture energies",

@@ -36,9 +36,9 @@ namespace Debond
       "reference coordinates). `homogeneous': everywhere. `disk': inside the "
       "concentric disk that has Bonded fraction of the area of a coin, cap, "
       "ring, cup or file. `annulus': outside a concentric disk, with that "
-      "fraction. `random': as many elements or points (Resolution), drawn by "
-      "Seed, as make up Bonded fraction. `expression': see Expression. "
-      "`image', `file': see File.");
+      "fraction. `random': as many elements or points (Expert / Interface / "
+      "Bonding / Resolution), drawn by Seed, as make up Bonded fraction. "
+      "`expression': see Expression. `image', `file': see File.");
     table.add("Bonding degree",
               initial_bonding,
               Allowed::number_between(0, 1, "").without_default(),
@@ -65,7 +65,7 @@ namespace Debond
       "distance d in space. 0: independent elements.");
     declare_places(table);
     table.add(
-      "Resolution",
+      "Expert / Resolution",
       resolution,
       Allowed::choice("element | quadrature point"),
       "`element': phi_0 is constant on each surface element of the implant "
@@ -98,13 +98,13 @@ namespace Debond
       "phi_0; the picture spans the square around the contact face (of a "
       "block, a file or a side: the rectangle), its right is +x and its top "
       "+y. Pattern file: CSV whose first line names its columns: "
-      "element,phi_0, or point,phi_0 with Resolution = quadrature point "
-      "(numbered from 1, see bonding.csv in the results), phi_0 alone (all of "
-      "these in order), or x,y,phi_0 (places in mm, seen from above, not in a "
-      "bore: an element takes the mean of those inside it, or that of the one "
-      "nearest to its centre; a quadrature point that of the nearest). The "
-      "path is relative to the working directory.");
-    table.add("White level",
+      "element,phi_0, or point,phi_0 with Expert / Interface / Bonding / "
+      "Resolution = quadrature point (numbered from 1, see bonding.csv in the "
+      "results), phi_0 alone (all of these in order), or x,y,phi_0 (places in "
+      "mm, seen from above, not in a bore: an element takes the mean of those "
+      "inside it, or that of the one nearest to its centre; a quadrature point "
+      "that of the nearest). The path is relative to the working directory.");
+    table.add("Expert / White level",
               white_level,
               Allowed::whole_number(1, 65535).or_word_for("auto", "0"),
               "Grey level in the file that is white, phi_0 = 1, for Pattern = "
@@ -113,7 +113,7 @@ namespace Debond
               "bits that stays below 16384, and of one of 8 bits with 0 and 1 "
               "alone.");
     table.add(
-      "Threshold",
+      "Expert / Threshold",
       threshold,
       Allowed::number_between(0, 0.9999, "").or_word_for("none", "-1"),
       "Grey level, from 0 (black) to 1 (white), above which phi_0 = 1, for "

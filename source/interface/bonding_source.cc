@@ -336,10 +336,11 @@ namespace Debond
         }
       const bool in_bore = implant.geometry().is_in_bore();
       if (has("phi_0") && (has("element") || in_bore))
-        file.refuse("Resolution asks for a value for each " + part +
-                    ": expected columns " + part + ",phi_0" +
-                    (in_bore ? " (a side is not seen from above, as x,y are)" :
-                               " or x,y,phi_0"));
+        file.refuse(
+          "Expert / Interface / Bonding / Resolution asks for a value for each " +
+          part + ": expected columns " + part + ",phi_0" +
+          (in_bore ? " (a side is not seen from above, as x,y are)" :
+                     " or x,y,phi_0"));
       if (columns.empty())
         file.refuse("this file is empty");
       if (!has("phi_0") || !(has_mm || (has("x") && has("y"))))

@@ -128,12 +128,14 @@ namespace Debond
         const std::string levels =
           "the levels of this picture go up to " + std::to_string(largest);
         if (white > 0 && largest > white)
-          refuse(levels + ": expected White level = " + std::to_string(white) +
-                 " at most");
+          refuse(levels +
+                 ": expected Expert / Interface / Bonding / White level = " +
+                 std::to_string(white) + " at most");
         if (white == 0 && (largest == 1 ||
                            (most == 65535 && largest > 0 && largest < 1 << 14)))
-          refuse(levels + " of " + std::to_string(most) +
-                 ": set White level to the one that is white");
+          refuse(
+            levels + " of " + std::to_string(most) +
+            ": set Expert / Interface / Bonding / White level to the one that is white");
         return white > 0 ? white : most;
       }
     };

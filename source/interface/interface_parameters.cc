@@ -13,13 +13,13 @@ namespace Debond
   InterfaceParameters::declare(EntryTable &table)
   {
     table.enter_subsection("Interface");
-    table.add("Slave",
+    table.add("Expert / Slave",
               slave,
               Allowed::choice("bone | implant"),
               "Body whose contact face has the quadrature points, which are "
               "projected onto the other body, the master.");
     table.add(
-      "Quadrature points",
+      "Expert / Quadrature points",
       quadrature_points == 0 ? "auto" : entry_text(quadrature_points),
       [this](const std::string &text) {
         quadrature_points = 0;

@@ -83,7 +83,7 @@ namespace Debond
                   "theta [unit of time] when friction starts. `auto': Sliding "
                   "distance / Reference speed, the steady state at Reference "
                   "speed.");
-        table.add("Evolution",
+        table.add("Expert / Evolution",
                   is_slip_law,
                   Allowed::choice("ageing | slip"),
                   "`ageing': d theta/dt = 1 - V theta/D, also while a point "

@@ -27,13 +27,14 @@ namespace Debond
 
     /** Entries that change nothing in the results; what the solver was for the
      *  bone the state itself says. */
-    const std::set<std::string> free_entries{"Title",
-                                             "Output / Directory",
-                                             "Output / Console",
-                                             "Bone / Solver",
-                                             "Output / Checkpoint every",
-                                             "Output / Checkpoint minutes",
-                                             "Output / Report"};
+    const std::set<std::string> free_entries{
+      "Title",
+      "Output / Directory",
+      "Expert / Output / Console",
+      "Expert / Bone / Solver",
+      "Expert / Output / Checkpoint every",
+      "Expert / Output / Checkpoint minutes",
+      "Output / Report"};
 
 
 

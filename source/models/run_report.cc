@@ -275,10 +275,11 @@ namespace Debond
         if (rows_at(fine, {angle}).empty())
           {
             const std::string at = to_text(angle, 6) + " deg";
-            console.warn("curve at " + at,
-                         "Output / Curve angles: the implant never turns "
-                         "through " +
-                           at);
+            console.warn(
+              "curve at " + at,
+              "Expert / Output / Curve angles: the implant never turns "
+              "through " +
+                at);
           }
     const CurveComparison comparison(curve_of(fine, output.axes),
                                      reference,

@@ -67,8 +67,8 @@ namespace Debond
            "the quadrature points of the bone, which is the slave, see a mean "
            "phi_0 of " +
              to_text(seen, 4) + " instead of " + to_text(report.mean, 4) +
-             ": Slave = implant meets it exactly, more elements of the bone "
-             "more closely"});
+             ": Expert / Interface / Slave = implant meets it exactly, more "
+             "elements of the bone more closely"});
     }
 
 
@@ -476,7 +476,7 @@ namespace Debond
            "and without it there may be no equilibrium. "
         << (slave == Side::implant ?
               "If no edge is meant, enlarge Bone / Size" :
-              "With Slave = implant they stay on the implant");
+              "With Expert / Interface / Slave = implant they stay on the implant");
     throw RunError(message);
   }
 

@@ -46,8 +46,8 @@ namespace Debond
       if (parameters.interface.friction->is_frictionless)
         return "Smaller steps show where";
       if (parameters.load_steps.follow_path)
-        return "A smaller Load steps / Largest slip step follows the path "
-               "between";
+        return "A smaller Expert / Load steps / Largest slip step follows the "
+               "path between";
       return "Load steps / Path following = slip follows the path between";
     }
 

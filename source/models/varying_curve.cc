@@ -23,7 +23,7 @@ namespace Debond
       return with_overrides(entries,
                             {"Task=simulate",
                              "Output/Reference curve=none",
-                             "Output/Console=quiet"});
+                             "Expert/Output/Console=quiet"});
     }
   } // namespace
 
@@ -42,9 +42,10 @@ namespace Debond
   {
     std::string of_bodies;
     for (const SceneEntry &entry : changed)
-      if (!entry.subsections.empty() &&
-          (entry.subsections.front() == "Bone" ||
-           entry.subsections.front() == "Implant"))
+      if (const auto &in = entry.subsections;
+          std::count(in.begin(), in.end(), "Bone") +
+            std::count(in.begin(), in.end(), "Implant") >
+          0)
         of_bodies += entry.full_name() + "=" + entry.value + "\n";
     if (of_bodies != bulk_entries)
       {

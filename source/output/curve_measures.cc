@@ -116,7 +116,7 @@ namespace Debond
                "friction is no less without it";
       if (rotation.direction * (end.angle_deg - theta_full_deg) <
           -rotation.tolerance)
-        return "the run ends before Output / Friction energy from angle";
+        return "the run ends before Expert / Output / Friction energy from angle";
       // that much bond around the axis is some per cent of the torque
       if (end.phi_mean > 0.2 * start.phi_mean)
         return Text()
@@ -227,7 +227,7 @@ namespace Debond
         measures["remarks"].push_back(
           "E_fric, W_adh, w_adh: of the largest torque there are " +
           to_text(100. * T / T_max, 3) + " % at " + to_text(angle) +
-          " degrees, the Output / Friction energy from angle: is it that of another "
+          " degrees, the Expert / Output / Friction energy from angle: is it that of another "
           "curve?");
       const double W_adh     = energies.W_adh() - released;
       measures["E_fric_Nmm"] = energies.E_fric;

@@ -317,8 +317,8 @@ namespace Debond
                "angle_deg," + std::string(interface_columns) + "\n" + profiles);
     return angles_to_come.empty() ?
              "" :
-             "Output / Profile angles: " + to_text(angles_to_come.front(), 6) +
-               " deg was never reached";
+             "Expert / Output / Profile angles: " +
+               to_text(angles_to_come.front(), 6) + " deg was never reached";
   }
 
 

@@ -83,7 +83,8 @@ namespace Debond
           changes[section + std::string(" / Cells")] =
             cells_of(*body, change, scene.is_axisymmetric());
       if (const unsigned int under = scene.bone.cells_under_implant; under > 0)
-        changes["Bone / Cells under implant"] = std::to_string(change(under));
+        changes["Expert / Bone / Cells under implant"] =
+          std::to_string(change(under));
       const BondingParameters &bonding = scene.interface.bonding;
       if (bonding.pattern == BondingPatternKind::file ||
           (bonding.pattern == BondingPatternKind::random &&
@@ -138,17 +139,17 @@ namespace Debond
         changes["Load steps / Steps"] = entry_text(steps);
       }
     for (const auto &[entry, value] :
-         Changes{{"Directory", scene.output.directory + "/coarser"},
-                 {"Fields every", "none"},
-                 {"Report", "false"},
-                 {"Console", "quiet"},
-                 {"Reference curve", "none"},
-                 {"Reference columns", "auto"},
-                 {"Reference profiles", "none"},
-                 {"Curve angles", "none"},
-                 {"Profile angles", "none"},
-                 {"Friction law curve", "false"}})
-      changes["Output / " + entry] = value;
+         Changes{{"Output / Directory", scene.output.directory + "/coarser"},
+                 {"Output / Fields every", "none"},
+                 {"Output / Report", "false"},
+                 {"Output / Reference curve", "none"},
+                 {"Output / Reference columns", "auto"},
+                 {"Expert / Output / Console", "quiet"},
+                 {"Expert / Output / Reference profiles", "none"},
+                 {"Expert / Output / Curve angles", "none"},
+                 {"Expert / Output / Profile angles", "none"},
+                 {"Expert / Output / Friction law curve", "false"}})
+      changes[entry] = value;
     Scene coarser                          = changed_scene(scene, changes);
     coarser.output.extendable              = false;
     coarser.output.overwrite_other_results = true;

@@ -95,7 +95,7 @@ namespace Debond
              is_spline_or_open("Bone", scene.bone) &&
              is_spline_or_open("Implant", scene.implant) &&
              choice.is_open("Bone", "Cells") &&
-             choice.is_open("Bone", "Layer grading") &&
+             choice.is_open("Expert / Bone", "Layer grading") &&
              scene.bone.lateral_grading == 1. &&
              scene.bone.cells_under_implant == 0 &&
              scene.bone.contact_surface == SurfaceKind::nurbs &&
@@ -130,10 +130,10 @@ namespace Debond
       const bool is_stiff = !choice.scene.has_soft_interface();
       choice.choose("Bone", "Cells", is_stiff ? "18, 18, 5" : "14, 14, 4");
       choice.entries.push_back(
-        {{"Bone"}, "Cells under implant", is_stiff ? "8" : "6", ""});
+        {{"Expert", "Bone"}, "Cells under implant", is_stiff ? "8" : "6", ""});
       if (is_stiff)
-        choice.choose("Bone", "Rim grading", "2.5");
-      choice.choose("Bone", "Layer grading", is_stiff ? "2.5" : "2");
+        choice.choose("Expert / Bone", "Rim grading", "2.5");
+      choice.choose("Expert / Bone", "Layer grading", is_stiff ? "2.5" : "2");
     }
 
 
@@ -156,7 +156,7 @@ namespace Debond
       else if (is_open)
         {
           choice.choose("Bone", "Cells", entry_text(lattice_below(scene)));
-          choice.choose("Bone", "Layer grading", "2");
+          choice.choose("Expert / Bone", "Layer grading", "2");
         }
       const bool is_ring     = implant.shape == BodyShape::ring,
                  follows_rim = is_fitted &&
@@ -215,10 +215,10 @@ namespace Debond
         {
           choice.choose(section, "Element", "quadratic");
           if (!is_screw)
-            choice.choose(section,
+            choice.choose("Expert / " + section,
                           "Layer grading",
                           !is_stiff ? "1.5" :
-                          is_cup    ? "2" : // more makes cells too thin
+                          is_cup    ? "2" : // more makes the cells too thin
                                       "2.5");
         }
     }

@@ -31,7 +31,7 @@ namespace Debond
       return profiles;
     for (const std::vector<double> &row : read_csv_columns(
            filename,
-           "Output / Reference profiles",
+           "Expert / Output / Reference profiles",
            {"angle_deg", "x_mm", "y_mm", "area_mm2", "pressure_MPa", "slip_mm"},
            true))
       profiles[row[0]].push_back({row[1], row[2], row[3], row[4], row[5]});

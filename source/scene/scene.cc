@@ -316,13 +316,14 @@ namespace Debond
     const auto *const mistake = dynamic_cast<const EntryError *>(&error);
     if (mistake == nullptr || !mistake->place.empty())
       return error;
-    const auto entry =
+    const std::string full_name = default_entries().placed(mistake->entry);
+    const auto        entry =
       std::find_if(entries.begin(), entries.end(), [&](const SceneEntry &e) {
-        return e.full_name() == mistake->entry;
+        return e.full_name() == full_name;
       });
     if (entry == entries.end())
-      return EntryError(mistake->entry, mistake->why, mistake->value, name);
-    return EntryError(mistake->entry, mistake->why, entry->value, entry->place);
+      return EntryError(full_name, mistake->why, mistake->value, name);
+    return EntryError(full_name, mistake->why, entry->value, entry->place);
   }
 
 

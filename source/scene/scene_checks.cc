@@ -163,10 +163,10 @@ namespace Debond
         throw EntryError(
           entry,
           "along a path of equilibrium the time may fall and is "
-          "no clock for Interface / " +
+          "no clock for " +
             (scene.interface.viscosity > 0. ?
-               "Viscosity = " + to_text(scene.interface.viscosity) :
-               "Adhesive / Opening viscosity = " +
+               "Interface / Viscosity = " + to_text(scene.interface.viscosity) :
+               "Expert / Interface / Adhesive / Opening viscosity = " +
                  to_text(scene.interface.joint()->tension.viscosity)) +
             ": expected only one of them");
     }
@@ -214,7 +214,8 @@ namespace Debond
       const std::pair<bool, const char *> without_rate[] = {
         {scene.load_steps.follow_path, "Load steps / Path following"},
         {scene.interface.explicit_friction, "Expert / Friction update"},
-        {scene.output.friction_law_curve, "Output / Friction law curve"},
+        {scene.output.friction_law_curve,
+         "Expert / Output / Friction law curve"},
         {scene.model != ModelKind::finite_elements, "Model"}};
       for (const auto &[is_wanted, entry] : without_rate)
         if (is_wanted)
@@ -304,10 +305,11 @@ namespace Debond
     check_path_following(*this);
     read_profiles(output.reference_profiles);
     if (!output.reference_profiles.empty() && output.profile_angles.empty())
-      throw EntryError("Output / Reference profiles",
-                       "it needs Output / Profile angles to compare at");
+      throw EntryError(
+        "Expert / Output / Reference profiles",
+        "it needs Expert / Output / Profile angles to compare at");
     if (bone.bulk_solver == BulkSolver::lattice && !why_not_lattice().empty())
-      throw EntryError("Bone / Solver",
+      throw EntryError("Expert / Bone / Solver",
                        why_not_lattice() +
                          ": expected auto, direct or multigrid");
   }

@@ -16,17 +16,17 @@ namespace Debond
         closed_form.pressure,
         Allowed::number_between(1e-9, 1e12, "MPa").or_word_for("auto", "0"),
         "Mean contact pressure p [MPa] during the rotation. `auto': from "
-        "Chuck / Press or Translation z: a force, or a depth times Normal "
-        "stiffness.");
+        "Chuck / Press or Translation z: a force, or a depth times Expert / "
+        "Closed form / Normal stiffness.");
       table.add(
-        "Normal stiffness",
+        "Expert / Normal stiffness",
         closed_form.normal_stiffness,
         Allowed::number_between(1e-6, 1e15, "MPa/mm").or_word_for("auto", "0"),
         "Mean pressure per depth of push-in [MPa/mm], interface and "
         "bodies in series. `auto': from one linear solution with the bodies "
         "of the scene.");
       table.add(
-        "Torsional stiffness",
+        "Expert / Torsional stiffness",
         closed_form.torsional_stiffness,
         Allowed::number_between(1e-6, 1e15, "MPa/mm").or_word_for("auto", "0"),
         "Stiffness lambda [MPa/mm] of the foundation in torsion, Eq. (39) of "
@@ -76,14 +76,14 @@ namespace Debond
         "compared with in study.csv. `none': they are compared with Output / "
         "Reference curve, if there is one.");
       table.add(
-        "Factors varied at once",
+        "Expert / Factors varied at once",
         study.factors_at_once,
         Allowed::whole_number(1, 1000).or_word_for("all", "0"),
         "Run only combinations in which at most this many factors differ "
         "from their first value: 1 varies one factor at a time, 2 also every "
         "pair. A factor is an entry {{a|b|c}}, or all entries {{name: "
         "a|b|c}} with one name. `all': all combinations.");
-      table.add("Repetitions",
+      table.add("Expert / Repetitions",
                 study.repetitions,
                 Allowed::whole_number(1, 1000),
                 "Number of runs of each variant. Seconds in study.csv are "
@@ -136,7 +136,7 @@ namespace Debond
               load_unit,
               true,
               load + " that the instrument shows without load" + sign);
-          add(load + " drift",
+          add("Expert / " + load + " drift",
               load_unit,
               true,
               "Linear drift of this offset from the first to the last row of "
@@ -157,7 +157,7 @@ namespace Debond
         "Standard deviation of what is measured, relative to the largest "
         "value of the curve: of each curve, or one for all. `auto': "
         "estimated from the residuals of each curve.");
-      table.add("Noise columns",
+      table.add("Expert / Noise columns",
                 "none",
                 nullptr,
                 Allowed::text("columns of the file", false).or_word("none"),
@@ -171,39 +171,39 @@ namespace Debond
     void
     declare_search(EntryTable &table)
     {
-      table.add("Measure",
+      table.add("Expert / Measure",
                 "least squares",
                 nullptr,
                 Allowed::choice("least squares | e_mp | e_rel"),
                 "What is minimised: the sum of squares, or the mean relative "
                 "difference of Eq. (19) or (50), smoothed where it is less "
                 "than a thousandth.");
-      table.add("Largest misfit",
+      table.add("Expert / Largest misfit",
                 "0.1",
                 nullptr,
                 Allowed::number_above(0, ""),
                 "Largest e_rel, Eq. (50), of an acceptable fit. Above it the "
                 "program says that nothing fits, and ends with exit code 2.");
-      table.add("Smallest share of rows",
+      table.add("Expert / Smallest share of rows",
                 "0.5",
                 nullptr,
                 Allowed::number_between(0, 1, ""),
                 "A fit that can use a smaller share of the rows in Windows is "
                 "refused: the others are beyond what the scene comes to, as "
                 "with angles in another unit.");
-      table.add("Starts",
+      table.add("Expert / Starts",
                 "20",
                 nullptr,
                 Allowed::whole_number(1, 100000),
                 "Number of starting points of the search; the best, five or, "
                 "where only runs of finite elements can search, two, are "
                 "followed to the end.");
-      table.add("Seed",
+      table.add("Expert / Seed",
                 "1",
                 nullptr,
                 Allowed::whole_number(1, std::numeric_limits<int>::max()),
                 "Seed of the random samples for intervals of e_mp and e_rel.");
-      table.add("Profiles",
+      table.add("Expert / Profiles",
                 "false",
                 nullptr,
                 Allowed::choice("false | true"),
@@ -292,7 +292,7 @@ namespace Debond
         "or the columns of torque.csv that Curve names, else the only ones "
         "with such units.");
       table.add(
-        "Reference profiles",
+        "Expert / Reference profiles",
         output.reference_profiles,
         Allowed::text("the name of a CSV file", false).or_word_for("none", ""),
         "CSV file with local values to compare with, such as profiles.csv of "
@@ -307,7 +307,7 @@ namespace Debond
     declare_measures(OutputParameters &output, EntryTable &table)
     {
       table.add(
-        "Curve angles",
+        "Expert / Curve angles",
         output.curve_at,
         Allowed::list(Allowed::number_between(-1e6, 1e6, "deg"), 1, 0)
           .or_word_for("none", ""),
@@ -316,14 +316,14 @@ namespace Debond
         "of them, interpolated as in curve.csv, or linearly without that "
         "file. `none': no such file.");
       table.add(
-        "Friction energy from angle",
+        "Expert / Friction energy from angle",
         output.full_sliding_angle,
         Allowed::number_above(0, "deg").or_word_for("auto", "0"),
         "Angle theta_fric [deg] from which E_fric of Eq. (20) is counted. "
         "`auto': theta_full, the last angle with a torque of at least 0.999 "
         "of the largest; with Model = prescribed angles, Slip counts from "
         "angle.");
-      table.add("Observed bonding",
+      table.add("Expert / Observed bonding",
                 output.observed_bonding,
                 Allowed::number_between(1e-9, 1, "").or_word_for("auto", "0"),
                 "Observed mean of phi_0 that w_adh of Eq. (21) refers to. "
@@ -336,7 +336,7 @@ namespace Debond
     declare_checkpoints(OutputParameters &output, EntryTable &table)
     {
       table.add(
-        "Checkpoint every",
+        "Expert / Checkpoint every",
         output.checkpoint_every,
         Allowed::whole_number(1, std::numeric_limits<int>::max())
           .or_word_for("none", "0"),
@@ -345,7 +345,7 @@ namespace Debond
         "`none': no such checkpoints. SIGINT, SIGTERM, SIGHUP and SIGUSR1 "
         "leave one in any case. For Model = finite elements.");
       table.add(
-        "Checkpoint minutes",
+        "Expert / Checkpoint minutes",
         output.checkpoint_minutes,
         Allowed::number_above(0, "min").or_word_for("none", "0"),
         "Time [min] after which the next row writes a checkpoint, in "
@@ -395,14 +395,14 @@ namespace Debond
       declare_references(output, table);
       declare_measures(output, table);
       table.add(
-        "Profile angles",
+        "Expert / Profile angles",
         output.profile_angles,
         Allowed::list(Allowed::number_above(0, "deg"), 1, 0)
           .or_word_for("none", ""),
         "Angles [deg] at which local values of all points of the interface "
         "are written into profiles.csv, each at the first row that reaches "
         "it. `none': no such file.");
-      table.add("Friction law curve",
+      table.add("Expert / Friction law curve",
                 output.friction_law_curve,
                 Allowed::choice("false | true"),
                 "Write phi and mu over the sliding distance g_s into "
@@ -415,14 +415,14 @@ namespace Debond
                 "the contact face, results and warnings, and maps.csv. "
                 "Variants of a study write none.");
       table.add(
-        "Reference marks",
+        "Expert / Reference marks",
         "none",
         nullptr,
         Allowed::list(Allowed::number(""), 1, 4).or_word("none"),
         "Reference values that the report marks in the curve: T_max, T_inf "
         "[N mm], theta_lin, theta_max (of the peak) [deg], all or the first "
         "of them. `none': no marks.");
-      table.add("Console",
+      table.add("Expert / Console",
                 output.quiet,
                 Allowed::choice("steps | quiet"),
                 "`steps': lines about the steps (a hundred if very many are "

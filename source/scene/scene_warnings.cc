@@ -175,7 +175,8 @@ namespace Debond
           scene.interface.fewest_points_per_element(scene.bone, scene.implant);
       note(points < fewest,
            "cells without points",
-           "Interface / Quadrature points = " + std::to_string(points) +
+           "Expert / Interface / Quadrature points = " +
+             std::to_string(points) +
              " leaves cells of the other body without a point, which makes "
              "the interface too soft: choose " +
              (fewest <= InterfaceParameters::most_points ?
@@ -231,14 +232,14 @@ namespace Debond
            "the bond breaks over a sliding distance of some " +
              to_text(distance, 3) + " mm, where the radius is " +
              to_text(R, 3) + " mm: lengths are mm, 22 um is 0.022");
-      note(law.has_bond() && scene.interface.slave == Side::bone &&
-             distance > 0.05 * R,
-           "bond on the bone",
-           "Slave = bone, and the bond breaks over some " +
-             to_text(distance, 3) +
-             " mm: how far a place has slid stays with the bone, which has no "
-             "bond where it is beside the implant. Slave = implant takes both "
-             "along");
+      note(
+        law.has_bond() && scene.interface.slave == Side::bone &&
+          distance > 0.05 * R,
+        "bond on the bone",
+        "Expert / Interface / Slave = bone, and the bond breaks over some " +
+          to_text(distance, 3) +
+          " mm: how far a place has slid stays with the bone, which has no "
+          "bond where it is beside the implant. Slave = implant takes both along");
       judge_points(scene, note);
     }
 
@@ -363,7 +364,7 @@ namespace Debond
              "of quadrature points, up to " +
              to_text(100. * row, 2) +
              " % of its face, loses its force at once: finer Cells, or more "
-             "Quadrature points");
+             "Expert / Interface / Quadrature points");
     }
 
 

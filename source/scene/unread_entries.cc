@@ -21,7 +21,9 @@ namespace Debond
         return std::any_of(beginnings.begin(),
                            beginnings.end(),
                            [&](const std::string &beginning) {
-                             return entry.rfind(beginning, 0) == 0;
+                             return entry.rfind(beginning, 0) == 0 ||
+                                    entry.rfind("Expert / " + beginning, 0) ==
+                                      0;
                            });
       }
     };
@@ -56,7 +58,7 @@ namespace Debond
          {"Implant / Young", "Implant / Poisson", "Implant / Layer"}},
         {!bone.voxel_file.empty(), "a Voxel file", {"Bone / Voxel corner"}},
         {bone.cells_under_implant > 0,
-         "Cells under implant",
+         "Expert / Bone / Cells under implant",
          {"Bone / Rim grading"}}};
     }
 

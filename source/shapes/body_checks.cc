@@ -44,8 +44,8 @@ namespace Debond
       refuse(!body.is_rigid() && body.contact_surface == SurfaceKind::nurbs &&
                std::min(body.cells[0], body.cells[1]) < 2,
              "Cells",
-             "one cell across is too few for Contact surface = nurbs: expected "
-             "at least 2");
+             "one cell across is too few for Contact surface = nurbs (under "
+             "Expert): expected at least 2");
 
       refuse(body.coarser_below && body.element == ElementKind::spline,
              "Coarser below",

@@ -52,7 +52,7 @@ namespace Debond
     declare_grading(BodyParameters &bone, EntryTable &table)
     {
       table.add(
-        "Lateral grading",
+        "Expert / Lateral grading",
         bone.lateral_grading,
         allowed_grading,
         "Grading exponent g of the cells across the block: their sides are "
@@ -60,7 +60,7 @@ namespace Debond
         "the edge length L; the same in y. 1: equal cells. More than 1: "
         "smaller cells at the centre, under the implant.");
       table.add(
-        "Cells under implant",
+        "Expert / Cells under implant",
         bone.cells_under_implant,
         Allowed::whole_number(1, 1000000000).or_word_for("none", "0"),
         "Number of cells across that lie under the implant, within its rim; "
@@ -69,7 +69,7 @@ namespace Debond
         "cells do not follow the rim. For Element = spline or quadratic; "
         "trilinear cells become too stiff below the rim.");
       table.add(
-        "Rim grading",
+        "Expert / Rim grading",
         bone.rim_grading,
         allowed_grading,
         "Grading exponent g of cells that follow the rim: their sides are at "
@@ -83,7 +83,7 @@ namespace Debond
     declare_solver(BodyParameters &bone, EntryTable &table)
     {
       table.add(
-        "Solver",
+        "Expert / Solver",
         bone.bulk_solver,
         Allowed::choice("auto | direct | lattice | multigrid"),
         "How the linear equations of the bone are solved. `direct': sparse "
@@ -342,7 +342,7 @@ namespace Debond
       ".mha), or CSV with columns x,y,z,grey of the centres [mm]. Young modulus says how grey values "
       "become moduli. `none': no voxels.");
     const AllowedValues places = Allowed::list(Allowed::number("mm"), 3, 3);
-    table.add("Voxel corner",
+    table.add("Expert / Voxel corner",
               voxel_corner,
               places.or_word("centred").or_word("file"),
               "Position x, y, z [mm] of the lowest corner of the grid of "
@@ -414,7 +414,7 @@ namespace Debond
       "with 27 nodes. `spline': quadratic splines in all directions: smaller "
       "error in the same time, especially with cells that follow the rim.");
     table.add(
-      "Layer grading",
+      "Expert / Layer grading",
       layer_grading,
       AllowedValues(allowed_grading).or_word_for("auto", "1"),
       "Grading exponent g of the layers of cells behind the contact face: of n "
@@ -425,7 +425,7 @@ namespace Debond
       "those of a cup or cavity towards the rim. `auto': as Accuracy needs, "
       "without it 1.");
     table.add(
-      "Coarser below",
+      "Expert / Coarser below",
       coarser_below,
       Allowed::choice("false | true"),
       "Make cells beyond the first layer at the contact face twice as wide in "
@@ -448,7 +448,7 @@ namespace Debond
               "approaches 0.5: above 0.45 the program warns, above 0.49 it "
               "refuses. Not used by a rigid body.");
     table.add(
-      "Contact surface",
+      "Expert / Contact surface",
       contact_surface,
       Allowed::choice("nurbs | bilinear"),
       "Interpolation of the contact face. `nurbs': biquadratic NURBS with "

@@ -158,7 +158,7 @@ namespace Debond
                                "there is no voxel at " + place_text(X) +
                                  ": they are " + box_text(of_voxels) +
                                  ", expected all over the bone (Bone / Size, "
-                                 "Voxel corner)");
+                                 "Expert / Bone / Voxel corner)");
             index[d] = std::clamp(static_cast<int>(std::floor(i)),
                                   0,
                                   static_cast<int>(image->n[d]) - 1);

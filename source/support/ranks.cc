@@ -57,7 +57,7 @@ namespace Debond
       if (says_yes(MPI_Finalized))
         throw InputError("MPI has been finalised, and cannot be started again: "
                          "run what needs it before (several processes, or "
-                         "Bone / Solver = multigrid)");
+                         "Expert / Bone / Solver = multigrid)");
       if (says_yes(MPI_Initialized))
         return;
       int provided = 0;

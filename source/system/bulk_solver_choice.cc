@@ -173,7 +173,7 @@ namespace Debond
   {
     const unsigned int n      = Ranks::number();
     const auto         refuse = [](const std::string &why) {
-      throw EntryError("Bone / Solver", why);
+      throw EntryError("Expert / Bone / Solver", why);
     };
     if (bone.is_rigid())
       return; // nothing is dealt out

@@ -24,7 +24,7 @@ namespace Debond
         "time, and with it everything prescribed, is unknown and may fall; "
         "each accepted step is a row. While everything sticks planned steps "
         "are taken.");
-      table.add("Largest slip step",
+      table.add("Expert / Largest slip step",
                 parameters.largest_slip_step,
                 Allowed::number_above(0, "mm").or_word_for("auto", "0"),
                 "With Path following: largest step of the sliding distance, "
@@ -32,7 +32,7 @@ namespace Debond
                 "`auto': a twentieth of the shortest distance over which the "
                 "law changes, such as a_s, 2 a_s b_s, or the gap over which "
                 "a bond opens.");
-      table.add("Path ends at slip",
+      table.add("Expert / Path ends at slip",
                 parameters.path_ends_at_slip,
                 Allowed::number_above(0, "mm").or_word_for("auto", "0"),
                 "With Path following: the run ends when the mean sliding "
@@ -48,12 +48,12 @@ namespace Debond
     declare_iteration(LoadSteppingParameters &parameters, EntryTable &table)
     {
       table.add(
-        "Smallest step fraction",
+        "Expert / Smallest step fraction",
         parameters.smallest_step_fraction,
         Allowed::number_between(1e-15, 1, ""),
         "Smallest step, as a fraction of a planned step, or of Largest slip "
         "step. If it does not converge, the run stops with an error.");
-      table.add("Residual tolerance",
+      table.add("Expert / Residual tolerance",
                 parameters.residual_tolerance,
                 Allowed::number_between(1e-14, 0.1, ""),
                 "Newton's method has converged when the residual is below "

@@ -13,7 +13,7 @@ namespace Debond
 {
   const char *const out_of_memory =
     "the memory of this machine is not enough for this scene: lower "
-    "Bone / Cells, Implant / Cells or Interface / Quadrature points";
+    "Bone / Cells, Implant / Cells or Expert / Interface / Quadrature points";
 
 
 
@@ -221,7 +221,7 @@ namespace Debond
       throw NotEnoughMemory(
         has_bodies ||
             estimate.points > std::max(estimate.bone, estimate.implant) ?
-          "Interface / Quadrature points" :
+          "Expert / Interface / Quadrature points" :
         estimate.bone > estimate.implant ? "Bone / Cells" :
                                            "Implant / Cells",
         "this scene needs some " + GB(needed) + " of memory" +
@@ -230,7 +230,8 @@ namespace Debond
           " are available: lower this first (of the memory, Bone / Cells "
           "take " +
           GB(estimate.bone) + ", Implant / Cells " + GB(estimate.implant) +
-          ", Interface / Quadrature points " + GB(estimate.points) + ")");
+          ", Expert / Interface / Quadrature points " + GB(estimate.points) +
+          ")");
     };
     // machines may have more or less of it
     Ranks::in_agreement(check);

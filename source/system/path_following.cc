@@ -128,7 +128,8 @@ namespace Debond
     if (path_length >= end_slip)
       return Text() << "the mean of sliding distance and opening has reached "
                     << end_slip
-                    << " mm (Load steps / Path ends at slip) at time " << time;
+                    << " mm (Expert / Load steps / Path ends at slip) at time "
+                    << time;
     return StepControl::reason_to_end();
   }
 } // namespace Debond

@@ -77,7 +77,7 @@ time_run() { # STEPS BODIES MESH BONE IMPLANT THREADS
     stepping=(--set "Load steps/Steps=1, 10" --set "Load steps/Adaptive=true")
   fi
   seconds=$(seconds_of "$debond" "$scene" --threads "$6" --set "Output/Directory=$directory/run" --force \
-    --set "Output/Fields every=none" --set "Output/Console=quiet" --set "Output/Report=false" \
+    --set "Output/Fields every=none" --set "Expert/Output/Console=quiet" --set "Output/Report=false" \
     --set "Bone/Cells=$4" --set "Implant/Cells=$5" \
     --set "Bone/Material=$2" --set "Implant/Material=$2" "${stepping[@]}")
   seconds=$(awk "BEGIN { print $seconds - $empty }")

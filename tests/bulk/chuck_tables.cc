@@ -28,8 +28,12 @@ subsection Chuck
   end
 end
 subsection Load steps
-  set Steps              = 2, 12
-  set Residual tolerance = 1e-12
+  set Steps = 2, 12
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-12
+  end
 end
 )";
 

@@ -55,9 +55,13 @@ subsection Chuck
   end
 end
 subsection Load steps
-  set Times              = 0, 1
-  set Steps              = 1
-  set Residual tolerance = 1e-12
+  set Times = 0, 1
+  set Steps = 1
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-12
+  end
 end
 )";
   const Scene       scene      = coin_scene(scene_text);
@@ -65,7 +69,8 @@ end
   const double      by_E       = (1. + nu) * (1. - 2. * nu) / (1. - nu);
   const double      compliance = 1. / scene.interface.normal_penalty +
                             by_E * (1. / 18000 + 1.5 / 500 + 2.5 / 3000);
-  for (const Changes &changes : {Changes{}, Changes{"Bone/Solver=multigrid"}})
+  for (const Changes &changes :
+       {Changes{}, Changes{"Expert/Bone/Solver=multigrid"}})
     {
       Simulation simulation(coin_scene(scene_text, changes));
       simulation.run();
@@ -343,10 +348,9 @@ check_voxels()
 
 const std::string coin = pressed_and_turned + R"(
 subsection Bone
-  set Cells         = 16, 16, 4
-  set Layer grading = 2
-  set Element       = spline
-  set Material      = linear
+  set Cells    = 16, 16, 4
+  set Element  = spline
+  set Material = linear
 end
 subsection Implant
   set Cells         = 3, 2
@@ -354,9 +358,16 @@ subsection Implant
   set Material      = linear
 end
 subsection Load steps
-  set Times              = 0, 1, 1.05, 1.2
-  set Steps              = 1, 5, 4
-  set Residual tolerance = 1e-10
+  set Times = 0, 1, 1.05, 1.2
+  set Steps = 1, 5, 4
+end
+subsection Expert
+  subsection Bone
+    set Layer grading = 2
+  end
+  subsection Load steps
+    set Residual tolerance = 1e-10
+  end
 end
 )";
 
@@ -392,7 +403,7 @@ void
 check_solvers()
 {
   const std::string layers = "Bone/Young modulus=2000 + 16000 * exp(2 * z)";
-  const std::string direct = "Bone/Solver=direct";
+  const std::string direct = "Expert/Bone/Solver=direct";
   report("layers on the lattice",
          difference_of_torques({layers}, {layers, direct}),
          1e-6);
@@ -418,8 +429,8 @@ check_multigrid()
        {"18000 * exp(x / 2)", "if(x > 0.1, 18000, 18)"})
     report("by multigrid, " + modulus,
            difference_of_torques(
-             {"Bone/Young modulus=" + modulus, "Bone/Solver=multigrid"},
-             {"Bone/Young modulus=" + modulus, "Bone/Solver=direct"}),
+             {"Bone/Young modulus=" + modulus, "Expert/Bone/Solver=multigrid"},
+             {"Bone/Young modulus=" + modulus, "Expert/Bone/Solver=direct"}),
            1e-8);
 }
 

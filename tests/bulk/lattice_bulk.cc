@@ -120,7 +120,8 @@ check(const std::string &name, BodyParameters parameters)
     }
   catch (const EntryError &error)
     {
-      report("  contact at a side is refused", error.entry == "Bone / Solver");
+      report("  contact at a side is refused",
+             error.entry == "Expert / Bone / Solver");
     }
 }
 

@@ -15,21 +15,31 @@ using namespace Debond;
 
 const std::string coin = R"(
 subsection Bone
-  set Cells         = 16, 16, 4
-  set Layer grading = 2
-  set Element       = spline
+  set Cells   = 16, 16, 4
+  set Element = spline
 end
 subsection Implant
-  set Cells         = 3, 2
-  set Layer grading = 2
-  set Element       = spline
+  set Cells   = 3, 2
+  set Element = spline
+end
+subsection Expert
+  subsection Bone
+    set Layer grading = 2
+  end
+  subsection Implant
+    set Layer grading = 2
+  end
 end
 )" + pressed_then("Rotation z", "10 * max(t - 1, 0)") +
                          R"(
 subsection Load steps
-  set Times              = 0, 1, 1.05, 1.2
-  set Steps              = 1, 5, 4
-  set Residual tolerance = 1e-10
+  set Times = 0, 1, 1.05, 1.2
+  set Steps = 1, 5, 4
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-10
+  end
 end
 )";
 
@@ -84,8 +94,9 @@ check_results(const std::string &name, const Changes &changes)
 {
   std::cout << name << '\n';
   Simulation lattice(
-    coin_scene(coin, changes + Changes{"Bone/Solver=lattice"}));
-  Simulation direct(coin_scene(coin, changes + Changes{"Bone/Solver=direct"}));
+    coin_scene(coin, changes + Changes{"Expert/Bone/Solver=lattice"}));
+  Simulation direct(
+    coin_scene(coin, changes + Changes{"Expert/Bone/Solver=direct"}));
   lattice.run();
   direct.run();
   const auto &rows = lattice.rows(), &expected = direct.rows();
@@ -144,10 +155,10 @@ main()
                  Changes{"Chuck/Translation x/Value=2 * sin(pi * min(t, 1))"});
   check_choice("trilinear", linear + Changes{"Bone/Element=trilinear"});
   check_choice("cells under the implant",
-               linear + Changes{"Bone/Cells under implant=8"});
+               linear + Changes{"Expert/Bone/Cells under implant=8"});
   check_choice("rigid", {"Bone/Material=rigid"});
   check_choice("direct, as it is in the scene",
-               linear + Changes{"Bone/Solver=direct"});
+               linear + Changes{"Expert/Bone/Solver=direct"});
 
   check_results("Pressed by a force, free to tilt under a moment",
                 linear + pressed_by_force +

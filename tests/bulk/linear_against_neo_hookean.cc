@@ -11,9 +11,13 @@
 const std::string scene_text =
   pressed_then("Rotation z", "10 * max(t - 1, 0)") + R"(
 subsection Load steps
-  set Times              = 0, 1, 2
-  set Steps              = 1, 100
-  set Residual tolerance = 1e-10
+  set Times = 0, 1, 2
+  set Steps = 1, 100
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-10
+  end
 end
 )";
 

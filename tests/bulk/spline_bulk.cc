@@ -87,29 +87,37 @@ check_modes(const std::string &name, const BodyParameters &parameters)
 
 const std::string main_scene = R"(
 subsection Bone
-  set Cells               = 12, 12, 3
-  set Cells under implant = 8
-  set Layer grading       = 2
-  set Material            = linear
-  set Element             = spline
+  set Cells    = 12, 12, 3
+  set Material = linear
+  set Element  = spline
 end
 subsection Implant
-  set Cells         = 4, 3
-  set Layer grading = 2
-  set Material      = linear
-  set Element       = spline
-end
-subsection Interface
-  set Quadrature points = 5
+  set Cells    = 4, 3
+  set Material = linear
+  set Element  = spline
 end
 subsection Expert
   set Slip direction = trial
+  subsection Bone
+    set Cells under implant = 8
+    set Layer grading       = 2
+  end
+  subsection Implant
+    set Layer grading = 2
+  end
+  subsection Interface
+    set Quadrature points = 5
+  end
 end
 )" + pressed_then("Rotation z", "10 * max(t - 1, 0)") +
                                R"(
 subsection Load steps
-  set Steps              = 1, 50
-  set Residual tolerance = 1e-11
+  set Steps = 1, 50
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-11
+  end
 end
 )";
 

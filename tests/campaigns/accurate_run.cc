@@ -143,7 +143,7 @@ test_coarser_run_that_fails()
                                  {"Accuracy=1 %",
                                          "Bone/Material=rigid",
                                          "Implant/Material=rigid",
-                                         "Output/Console=quiet",
+                                         "Expert/Output/Console=quiet",
                                          "Output/Fields every=none",
                                          "Output/Directory=" + directory});
   std::ostringstream none;

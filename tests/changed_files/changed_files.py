@@ -166,9 +166,9 @@ def check_reference_curve():
 
 
 def check_reference_profiles():
-    options = with_entries('Model=foundation', 'Output/Profile angles=0.5', 'Output/Directory=study',
-                           'Output/Reference profiles=profiles.csv', 'Interface/Characteristic slip distance={{0.1|0.2}}')
-    call('scene.prm', *with_entries('Model=foundation', 'Output/Profile angles=0.5', 'Interface/Characteristic slip distance=0.1'))
+    options = with_entries('Model=foundation', 'Expert/Output/Profile angles=0.5', 'Output/Directory=study',
+                           'Expert/Output/Reference profiles=profiles.csv', 'Interface/Characteristic slip distance={{0.1|0.2}}')
+    call('scene.prm', *with_entries('Model=foundation', 'Expert/Output/Profile angles=0.5', 'Interface/Characteristic slip distance=0.1'))
     rows = table('results/profiles.csv')
     for factor, age in (2, 0), (4, 1000):
         with open('multiple', 'w', newline='') as file:

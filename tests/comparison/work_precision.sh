@@ -252,11 +252,11 @@ run_debond() {
   local adaptive=false body splines=()
   [ "$method" = adaptive ] && adaptive=true
   if [ "$method" = splines ]; then
-    for body in Bone Implant; do splines+=(--set "$body/Element=spline" --set "$body/Layer grading=2"); done
+    for body in Bone Implant; do splines+=(--set "$body/Element=spline" --set "Expert/$body/Layer grading=2"); done
   fi
   # shellcheck disable=SC2046 # no value has a blank
   timed "$debond" "$here/coin.prm" $(cells_of_scene) "${splines[@]}" --force --set "Output/Directory=$directory/debond" \
-    --set Output/Console=quiet --set "Load steps/Adaptive=$adaptive" --set "Load steps/Steps=$steps_of_scene" \
+    --set Expert/Output/Console=quiet --set "Load steps/Adaptive=$adaptive" --set "Load steps/Steps=$steps_of_scene" \
     --threads "$threads"
   awk -F, 'FNR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
            { print $column["angle_deg"] "," $column["torque_Nmm"] }' "$directory/debond/torque.csv" > "$directory/curve"

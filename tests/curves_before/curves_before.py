@@ -32,7 +32,7 @@ SCENES = {
     'coin_mode3': ('paper/main_scene', BEFORE, 20),
     'coin_mode3_fast': ('coin_mode3_fast', BEFORE + EQUAL_STEPS, 2),
     # solved to the last digits
-    'coin_mode3_spline': ('coin_mode3_spline', BEFORE + EQUAL_STEPS + ['--set', 'Load steps/Residual tolerance=1e-11'], 2),
+    'coin_mode3_spline': ('coin_mode3_spline', BEFORE + EQUAL_STEPS + ['--set', 'Expert/Load steps/Residual tolerance=1e-11'], 2),
     'compliant_machine': ('compliant_machine', BEFORE + ['--set', 'Chuck/Rotation z/Stiffness=55060', '--set', 'Load steps/Adaptive=false'], 20),
     'layered': ('heterogeneous/layered', BEFORE + EQUAL_STEPS, 2),
     'partial_bonding': ('partial_bonding', BEFORE + EQUAL_STEPS, 2),

@@ -430,7 +430,7 @@ scene_of(const std::string &shape, const std::vector<std::string> &more = {})
                                      (is_cup ? "4" : "8"),
                                    std::string("Implant/Height=") +
                                      (is_cup ? "2" : "3"),
-                                   "Interface/Quadrature points=3"};
+                                   "Expert/Interface/Quadrature points=3"};
   const auto add = [&entries](const std::vector<std::string> &others) {
     entries.insert(entries.end(), others.begin(), others.end());
   };
@@ -520,8 +520,8 @@ check_bores()
                      {"Interface/Bonding/Pattern=file",
                       "Interface/Bonding/File=again.csv",
                       resolution == BondingResolution::element ?
-                        "Interface/Bonding/Resolution=element" :
-                        "Interface/Bonding/Resolution=quadrature point"})
+                        "Expert/Interface/Bonding/Resolution=element" :
+                        "Expert/Interface/Bonding/Resolution=quadrature point"})
               .interface.bonding,
             implant);
           report("  the table of a pattern gives it again, deviation",

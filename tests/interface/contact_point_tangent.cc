@@ -426,7 +426,8 @@ main()
   // with entries that do nothing by default
   const std::string adhesive = "set Law = adhesive\nsubsection Adhesive\n"
                                "set Adhesive friction = 1\n"
-                               "set Opening viscosity = 20\nend\n";
+                               "end\nsubsection Expert\nsubsection Adhesive\n"
+                               "set Opening viscosity = 20\nend\nend\n";
   for (const InterfaceLawPlugin &plugin : all_laws<InterfaceLaw>())
     for (const FrictionLawPlugin &friction : all_laws<FrictionLaw>())
       for (const auto &[name, direction, is_explicit] : methods)

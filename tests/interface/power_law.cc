@@ -19,9 +19,11 @@ main()
   const double G_I = 0.05, G_II = 0.1, exponent = 1.3;
   const auto   law =
     interface_law_of_text("set Law = mixed mode\nsubsection Mixed mode\n"
-                          "set Criterion = power law\nset Exponent = 1.3\n"
+                          "set Criterion = power law\n"
                           "set Stiffness = 2000\nset Fracture energy I = 0.05\n"
-                          "set Fracture energy II = 0.1\nend\n",
+                          "set Fracture energy II = 0.1\nend\n"
+                          "subsection Expert\nsubsection Mixed mode\n"
+                          "set Exponent = 1.3\nend\nend\n",
                           modified_coulomb());
   PointHistory history;
   history.joined    = true;

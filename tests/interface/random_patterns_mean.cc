@@ -21,8 +21,10 @@ end
 subsection Implant
   set Cells = 20, 2
 end
-subsection Interface
-  set Quadrature points = 3
+subsection Expert
+  subsection Interface
+    set Quadrature points = 3
+  end
 end
 )" + pressed_then("Rotation z", "max(t - 1, 0)") +
                                R"(

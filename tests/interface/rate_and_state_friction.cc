@@ -30,9 +30,10 @@ law_with(const std::string &evolution)
                      "  set Direct effect = 0.01\n"
                      "  set Evolution effect = 0.015\n"
                      "  set Reference speed = 1e-6\n"
-                     "  set Sliding distance = 0.01\n"
+                     "  set Sliding distance = 0.01\nend\n"
+                     "subsection Expert\nsubsection Rate and state\n"
                      "  set Evolution = " +
-                     evolution + "\nend\n");
+                     evolution + "\nend\nend\n");
 }
 
 double

@@ -20,8 +20,14 @@ subsection Implant
 end
 subsection Interface
   subsection Bonding
-    set Pattern    = expression
-    set Resolution = quadrature point
+    set Pattern = expression
+  end
+end
+subsection Expert
+  subsection Interface
+    subsection Bonding
+      set Resolution = quadrature point
+    end
   end
 end
 )" + pressed_then("Rotation z", "max(t - 1, 0)") +
@@ -113,12 +119,12 @@ check_turned()
                                        "Bone/Material=linear",
                                        "Implant/Material=linear",
                                        "Implant/Cells=6, 2",
-                                       "Interface/Quadrature points=3",
+                                       "Expert/Interface/Quadrature points=3",
                                        "Load steps/Steps=1, 1, 1, 1, 2, 2, 2"};
   for (const std::string resolution : {"element", "quadrature point"})
     {
       auto with = small;
-      with.push_back("Interface/Bonding/Resolution=" + resolution);
+      with.push_back("Expert/Interface/Bonding/Resolution=" + resolution);
       with.push_back("Interface/Bonding/Expression=x > 0.21*R && y < 0.33*R");
       DrivenScene first(scene_text, with);
       with.back() = "Interface/Bonding/Expression=y > 0.21*R && -x < 0.33*R";
@@ -173,7 +179,7 @@ bodies_of(const std::string &shape, const bool on_bone)
   std::vector<std::string> all{"Implant/Shape=" + shape,
                                "Bone/Material=rigid",
                                "Implant/Material=rigid",
-                               "Interface/Quadrature points=3",
+                               "Expert/Interface/Quadrature points=3",
                                "Load steps/Times=0, 1",
                                "Load steps/Steps=4"};
   const auto               add = [&all](const std::vector<std::string> &more) {
@@ -247,7 +253,7 @@ check_shapes()
       for (const std::string slave : {"implant", "bone"})
         {
           auto scene = bodies_of(shape, on_bone);
-          scene.push_back("Interface/Slave=" + slave);
+          scene.push_back("Expert/Interface/Slave=" + slave);
           Debond::Chuck::Vector6 motion; // at the end [mm, degrees]
           for (unsigned int k = 0; k < 6; ++k)
             motion[k] = random_number(-0.005, 0.005) * (k < 3 ? 1. : 10.);

@@ -44,7 +44,7 @@ compare(const std::vector<std::string> &mesh,
         const double                    limit_torque)
 {
   auto slave_is_bone = mesh;
-  slave_is_bone.push_back("Interface/Slave=bone");
+  slave_is_bone.push_back("Expert/Interface/Slave=bone");
   DrivenScene  implant(scene_text, mesh), bone(scene_text, slave_is_bone);
   const auto  &interface = bone.system.interface;
   unsigned int expected;
@@ -96,13 +96,13 @@ compare_turned(const std::string &expression)
     "Chuck/Translation y/Value=0.05 * max(t - 3, 0)",
     "Load steps/Times=0, 1, 2, 3, 4",
     "Load steps/Steps=1, 45, 10, 10",
-    "Interface/Quadrature points=3",
+    "Expert/Interface/Quadrature points=3",
     "Interface/Characteristic slip distance=1000",
     "Interface/Bonding/Pattern=expression",
-    "Interface/Bonding/Resolution=quadrature point",
+    "Expert/Interface/Bonding/Resolution=quadrature point",
     "Interface/Bonding/Expression=" + expression};
   auto slave_is_bone = mesh;
-  slave_is_bone.push_back("Interface/Slave=bone");
+  slave_is_bone.push_back("Expert/Interface/Slave=bone");
   DrivenScene implant(scene_text, mesh), bone(scene_text, slave_is_bone);
   double      difference = 0., torque = 0.;
   while (implant.advance() && bone.advance())

@@ -235,7 +235,7 @@ check_refused_load()
   const std::vector<std::string> overrides{
     "Chuck/Rotation z/Control=moment",
     "Chuck/Rotation z/Value=45 * min(1, 1.5 * max(t - 1, 0))",
-    "Load steps/Smallest step fraction=1e-2"};
+    "Expert/Load steps/Smallest step fraction=1e-2"};
   Attempt    attempt, none;
   const auto failing   = simulation_of(overrides, attempt),
              clean     = simulation_of(overrides, none);
@@ -369,7 +369,7 @@ check_all()
          turns,
          large_x});
   check("The bone is the slave, sideways",
-        {"Interface/Slave=bone", turns, large_x});
+        {"Expert/Interface/Slave=bone", turns, large_x});
   check("Adaptive steps", {"Load steps/Adaptive=true"});
   check("Along a path, with a compliant machine",
         {"Load steps/Path following=slip",
@@ -380,9 +380,12 @@ check_all()
          "Chuck/Rotation z/Value=40 * max(t - 1, 0)"});
   check("Rate and state friction",
         {"Interface/Friction law=rate and state", turns});
-  check("Multigrid", {"Bone/Solver=multigrid", turns, large_x}, 5);
+  check("Multigrid", {"Expert/Bone/Solver=multigrid", turns, large_x}, 5);
   check("Multigrid, a Neo-Hookean bone",
-        {"Bone/Solver=multigrid", "Bone/Material=neo-hookean", turns, large_x},
+        {"Expert/Bone/Solver=multigrid",
+         "Bone/Material=neo-hookean",
+         turns,
+         large_x},
         6);
   check_refused_load();
   check_resumed();

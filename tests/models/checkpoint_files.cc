@@ -174,10 +174,14 @@ small_scene(const std::vector<std::string> &overrides = {})
       set Steps = 1, 4
     end
     subsection Output
-      set Directory        = results/run
-      set Fields every     = 1
-      set Console          = quiet
-      set Checkpoint every = 2
+      set Directory    = results/run
+      set Fields every = 1
+    end
+    subsection Expert
+      subsection Output
+        set Console          = quiet
+        set Checkpoint every = 2
+      end
     end)",
                     overrides);
 }
@@ -226,7 +230,8 @@ test_scenes()
   print_found("The same scene", own);
   print_found("Another console and more checkpoints",
               own,
-              {"Output/Console=steps", "Output/Checkpoint every=1"});
+              {"Expert/Output/Console=steps",
+               "Expert/Output/Checkpoint every=1"});
   print_found("Another title", own, {"Title=What it shows"});
   print_error<InputError>("A run that begins anew",
                           [] { DebondingProblem(small_scene()).run(); });
@@ -335,7 +340,7 @@ test_errors_of_writing()
   print_error<WriteError>("A torque curve on a full disk", [] {
     const FullDisk full(8000);
     DebondingProblem(small_scene({"Output/Fields every=none",
-                                  "Output/Checkpoint every=none",
+                                  "Expert/Output/Checkpoint every=none",
                                   "Load steps/Steps=1, 60"}))
       .run();
   });

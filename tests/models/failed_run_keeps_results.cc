@@ -28,7 +28,11 @@ end
 subsection Output
   set Directory    = results
   set Fields every = 1
-  set Console      = quiet
+end
+subsection Expert
+  subsection Output
+    set Console = quiet
+  end
 end
 )";
 

@@ -229,8 +229,10 @@ main()
   const std::string linear = bodies_of("linear"), rigid = bodies_of("rigid");
 
   check("Neo-Hookean bodies, with profiles", R"(
-    subsection Output
-      set Profile angles = 0.25, 0.5, 1.5
+    subsection Expert
+      subsection Output
+        set Profile angles = 0.25, 0.5, 1.5
+      end
     end)");
   check("Linear bodies", linear);
   check("Rigid bodies", rigid);
@@ -292,11 +294,15 @@ main()
         {2, 10, 12});
   check("Viscosity, the bone is the slave, a random pattern", linear + R"(
     subsection Interface
-      set Slave     = bone
       set Viscosity = 5
       subsection Bonding
         set Pattern         = random
         set Bonded fraction = 0.5
+      end
+    end
+    subsection Expert
+      subsection Interface
+        set Slave = bone
       end
     end)");
   check("Rate and state friction", linear + R"(
@@ -353,8 +359,10 @@ main()
     end)");
   check("Splines on the lattice, Neo-Hookean bodies", splines);
   check("Splines, cells under the implant", linear + splines + R"(
-    subsection Bone
-      set Cells under implant = 8
+    subsection Expert
+      subsection Bone
+        set Cells under implant = 8
+      end
     end)");
   check("Steps that are halved",
         R"(

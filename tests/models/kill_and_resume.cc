@@ -50,10 +50,14 @@ scene_in(const std::string &place)
     end
     subsection Output
       set Fields every = 50
-      set Console      = quiet
+    end
+    subsection Expert
+      subsection Output
+        set Console = quiet
+      end
     end)",
                     {"Output/Directory=" + place,
-                     "Output/Checkpoint every=" +
+                     "Expert/Output/Checkpoint every=" +
                        std::to_string(steps_between_checkpoints)});
 }
 

@@ -67,7 +67,7 @@ check_torque()
   for (const unsigned int n : {3, 4, 5, 6, 7, 8, 9, 10})
     {
       double worst = 0;
-      twist({"Interface/Quadrature points=" + std::to_string(n)},
+      twist({"Expert/Interface/Quadrature points=" + std::to_string(n)},
             [&](DrivenScene &driven, const double theta) {
               grow(worst,
                    std::abs(driven.system.chuck_forces()[5] /
@@ -141,7 +141,7 @@ look_at_points(
   const unsigned int                                           n,
   const std::function<void(double r, double theta, double t)> &look)
 {
-  twist({"Interface/Quadrature points=" + std::to_string(n)},
+  twist({"Expert/Interface/Quadrature points=" + std::to_string(n)},
         [&](DrivenScene &driven, const double theta) {
           const auto &system = driven.system;
           const auto &control_points =

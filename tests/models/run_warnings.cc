@@ -126,7 +126,7 @@ main()
   }());
   show("from the side, the bone as slave", [&] {
     auto all = move_in("12 - 8 * t", "-0.05");
-    all.push_back("Interface/Slave=bone");
+    all.push_back("Expert/Interface/Slave=bone");
     return all;
   }());
   show("from above", move_in("12 - 8 * t", "if(t < 0.9, 0.05, 0.95 - t)"));

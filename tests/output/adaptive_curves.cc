@@ -213,7 +213,7 @@ check_files()
             {"Chuck/Rotation z/Value=2 * max(t - 1, 0)",
              "Load steps/Steps=1, 10",
              "Load steps/Adaptive=true",
-             "Output/Curve angles=7, 1.5, 0, 0.5, -3"});
+             "Expert/Output/Curve angles=7, 1.5, 0, 0.5, -3"});
   std::ifstream table("results/at angles/curve_at.csv");
   std::string   line;
   std::getline(table, line);
@@ -235,7 +235,7 @@ test()
   check_rates("The bone as slave, viscosity",
               {"Bone/Material=linear",
                "Implant/Material=linear",
-               "Interface/Slave=bone",
+               "Expert/Interface/Slave=bone",
                "Interface/Viscosity=0.5"});
   check_rates("A machine with springs and loads",
               {"Bone/Material=linear",

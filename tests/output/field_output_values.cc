@@ -247,7 +247,7 @@ check_pattern(const std::string &resolution)
   DrivenScene      driven(turned_coin,
                      {"Interface/Bonding/Pattern=disk",
                            "Interface/Bonding/Bonded fraction=0.5",
-                           "Interface/Bonding/Resolution=" + resolution});
+                           "Expert/Interface/Bonding/Resolution=" + resolution});
   OutputParameters output;
   output.overwrite_other_results = true;
   output.directory               = "results/pattern";

@@ -60,9 +60,11 @@ end
 subsection Load steps
   set Steps = 1, 40
 end
-subsection Output
-  set Profile angles     = 1.5, 0.1
-  set Friction law curve = true
+subsection Expert
+  subsection Output
+    set Profile angles     = 1.5, 0.1
+    set Friction law curve = true
+  end
 end
 )";
 
@@ -112,7 +114,7 @@ check_local_errors(const RigidBodiesTorsion &exact)
       write_reference("results/reference.csv", exact, 1. + by, 1. + 2. * by);
       run_scene("profiles",
                 text_of_scene,
-                {"Output/Reference profiles=results/reference.csv"});
+                {"Expert/Output/Reference profiles=results/reference.csv"});
       report("both angles compared", summary("reference_angles_used") == 2);
       report("local error of the pressure",
              std::abs(summary("pressure_difference_rms") - by / (1. + by)),

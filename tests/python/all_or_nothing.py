@@ -68,7 +68,7 @@ def fails(simulation, error, call):
 
 def check_moments():
     """45 N mm hold, 60 do not: the row is divided until its parts are too small, and some parts are accepted."""
-    moment = {"Chuck/Rotation z/Control": "moment", "Load steps/Smallest step fraction": 1e-2}
+    moment = {"Chuck/Rotation z/Control": "moment", "Expert/Load steps/Smallest step fraction": 1e-2}
 
     def run(moments):
         simulation = debond.Simulation(debond.Scene(text=coin, entries=moment), drive={"Rotation z": 0, "Translation z": 0})

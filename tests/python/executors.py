@@ -42,11 +42,13 @@ subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 12
 end
-subsection Calibration
-  set Starts = 1
-end
 subsection Output
   set Reference curve = measured.csv
+end
+subsection Expert
+  subsection Calibration
+    set Starts = 1
+  end
 end
 """
 TRUTH = {"Interface/Friction coefficient unbroken": 0.58, "Interface/Characteristic slip distance": 0.022, "Output/Reference curve": "none"}
@@ -132,7 +134,7 @@ def check_run_many():
     alone = good.run().rows["torque_Nmm"]
     entries = {"Model": "foundation", "Chuck/Rotation z/Value": "max(t - 1, 0)",
                "Chuck/Press/Value": "0.005 * min(t, 1)", "Implant/Radius": 2.5, "Interface/Friction law": "coulomb",
-               "Interface/Friction coefficient": 0.4, "Interface/Tangential stiffness": "auto", "Closed form/Pressure": 3, "Closed form/Torsional stiffness": 300}
+               "Interface/Friction coefficient": 0.4, "Interface/Tangential stiffness": "auto", "Closed form/Pressure": 3, "Expert/Closed form/Torsional stiffness": 300}
     with ProcessPoolExecutor(2, multiprocessing.get_context("spawn")) as executor:
         for one in (None, executor):
             found = debond.run_many([good, bad, entries, {"No/Entry": 1}], one)

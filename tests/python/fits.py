@@ -52,6 +52,7 @@ FIVE = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "
         I + "Tangential stiffness": "<<eps_t: 400 in 100..3000 log>>"}
 TWO = {I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.3..1.2>>", I + "Characteristic slip distance": "<<a_s: 0.01 in 0.004..0.1 log>>",
        I + "Tangential stiffness": 700}
+EXPERT = ("Noise columns", "Largest misfit", "Smallest share of rows", "Starts", "Measure", "Torque drift", "Force drift")  # of Calibration
 failures = []
 n_seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 4
 
@@ -76,8 +77,13 @@ def measured(filename, entries=TRUTH, angle_offset=0.0, torque_offset=0.0, facto
     return columns
 
 
+def name_of(entry, slash="/"):
+    """The full name of an entry of Calibration."""
+    return slash.join(["Expert"] * (entry in EXPERT) + ["Calibration", entry])
+
+
 def scene_of(entries, filename, **more):
-    calibration = {f"Calibration/{name}": value for name, value in more.items()}
+    calibration = {name_of(name): value for name, value in more.items()}
     return debond.Scene(None, {**entries, **calibration, "Output/Reference curve": filename}, text=SCENE)
 
 
@@ -189,7 +195,7 @@ end
 
 def fit_of_pull(entries={I + "Adhesive/Strength": "<<t0: 4 in 0.5..20>>"}, **more):
     return debond.fit(debond.Scene(None, {**entries, "Output/Reference curve": "pull.csv", "Output/Reference columns": "1 [mm], 2 [N]",
-                                          "Calibration/Starts": 1, **more}, text=PULL))
+                                          "Expert/Calibration/Starts": 1, **more}, text=PULL))
 
 
 def check_pulls():
@@ -201,7 +207,7 @@ def check_pulls():
 
     def found(entries, over="auto", columns="auto"):
         problem = fits.problem_of(debond.Scene(None, {**two, **entries, "Calibration/Over": over, "Output/Reference curve": "pull.csv",
-                                                      "Output/Reference columns": columns, "Calibration/Starts": 4}, text=PULL))
+                                                      "Output/Reference columns": columns, "Expert/Calibration/Starts": 4}, text=PULL))
         return SimpleNamespace(names=problem.unknowns.names, values=fits.find_optima(problem)[0][0].values)
 
     spring = {"Chuck/Translation z/Stiffness": 5e4}
@@ -220,7 +226,7 @@ def check_pulls():
             turns = sign if "offset" in name or "drift" in name else 1  # what is seen of a machine that counts the other way
             more, part = {"Force offset": (0, turns * value), "Force drift": (0, turns * value * share)}.get(name, (turns * value, 0))
             write("pull.csv", {"u": sign * (u + (more * F if "compliance" in name else more)), "F": sign * (F + part)})
-            check_values(f"{name} of a pull, sign {sign}", found({"Calibration/" + name: text}, columns=f"1 [{'-' * (sign < 0)}mm], 2 [{'-' * (sign < 0)}N]"),
+            check_values(f"{name} of a pull, sign {sign}", found({name_of(name): text}, columns=f"1 [{'-' * (sign < 0)}mm], 2 [{'-' * (sign < 0)}N]"),
                          {**truth, text[2:text.index(":")]: value})
 
 
@@ -273,7 +279,7 @@ def check_held_load():
     rows = debond.Scene(text=held).run().rows
     write("pull.csv", {"u": rows["chuck_uz_mm"], "F": rows["chuck_Fz_N"]})
     for load, n in ((20, 0), (10.1, 30)):
-        found = debond.fit(debond.Scene(None, {I + "Adhesive/Gap at strength": "<<g0: 0.03 in 0.001..0.2 log>>", "Calibration/Starts": 1,
+        found = debond.fit(debond.Scene(None, {I + "Adhesive/Gap at strength": "<<g0: 0.03 in 0.001..0.2 log>>", "Expert/Calibration/Starts": 1,
                                                "Chuck/Translation z/Value": f"{load} * t", "Output/Reference curve": "pull.csv",
                                                "Output/Reference columns": "1 [mm], 2 [N]"}, text=held))
         said = [text for text in found.warnings if "the load of the scene is reached" in text]
@@ -541,7 +547,7 @@ def check_exact_data():
 def check_constant():
     """A sensor at its limit, or an implant that is not bonded."""
     write("constant.csv", {"angle_deg": numpy.linspace(0.05, 9.9032, 120), "torque_Nmm": numpy.full(120, 30.0)})
-    scene = {"Closed form/Torsional stiffness": 300, "Closed form/Normal stiffness": 500, "Chuck/Press/Control": "force",
+    scene = {"Expert/Closed form/Torsional stiffness": 300, "Expert/Closed form/Normal stiffness": 500, "Chuck/Press/Control": "force",
              "Chuck/Press/Value": "50 * min(t, 1)", I + "Friction coefficient broken": "<<mu_b: 0.45 in 0.1..1>>",
              I + "Friction coefficient unbroken": "<<mu_ub: 0.6 in 0.1..1.5>>", I + "Characteristic slip distance": "<<a_s: 0.03 in 0.002..0.2 log>>"}
     found = fit(scene, "constant.csv")
@@ -585,7 +591,7 @@ subsection Implant
   set Cells = 4, 4
 end
 """
-    entries = {**TRUTH, I + "Friction coefficient unbroken": TWO[I + "Friction coefficient unbroken"], "Output/Reference curve": "wide.csv", "Calibration/Starts": 1}
+    entries = {**TRUTH, I + "Friction coefficient unbroken": TWO[I + "Friction coefficient unbroken"], "Output/Reference curve": "wide.csv", "Expert/Calibration/Starts": 1}
     for sideways in (0.05, 0):
         scene = wide + f"""
 subsection Chuck
@@ -621,7 +627,7 @@ def check_cells():
     write("converged.csv", dict(zip(("angle_deg", "torque_Nmm"), numpy.transpose(CONVERGED))))
     scene = debond.Scene(os.path.dirname(os.path.abspath(__file__)) + "/../../prm/tutorial/implant.prm", {
         I + "Normal stiffness": 1500, I + "Tangential stiffness": "<<eps_t: 1000 in 100..10000 log>>",
-        I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.2..1>>", "Output/Reference curve": "converged.csv", "Calibration/Starts": 1,
+        I + "Friction coefficient unbroken": "<<mu_ub: 0.5 in 0.2..1>>", "Output/Reference curve": "converged.csv", "Expert/Calibration/Starts": 1,
         "Calibration/Noise": 0.002})
     problem, truth = fits.problem_of(scene), numpy.array([1500, 0.6])
     first = fits.Fit(problem, *fits.find_optima(problem), time.time())
@@ -739,10 +745,10 @@ def check_known_of_pulls():
            max(abs(100 * by_gap - table["Interface / Adhesive / Gap at strength"]), abs(100 * (by_gap - again))) < 0.02, (by_gap, again, table))
     report("1 % of the largest force: -1.42 %", abs(100 * by_force - table["Calibration / Force offset"]) < 0.02, (by_force, table))
     rows = {"Steps", "Implant / Radius", "Interface / Adhesive / Gap at strength", "Interface / Bonding / Bonding degree",
-            *("Calibration / " + name for name in ("Displacement offset", "Displacement slack", "Displacement compliance", "Force offset", "Force drift"))}
+            *(name_of(name, " / ") for name in ("Displacement offset", "Displacement slack", "Displacement compliance", "Force offset", "Force drift"))}
     report("no row of what a pull does not read", set(table) == rows, set(table) ^ rows)
     mixed = {I + "Law": "mixed mode", I + "Mixed mode/Fracture energy I": "<<G: 0.06 in 0.02..0.2>>", I + "Viscosity": 1}
-    table = {row["entry"] for row in fit_of_pull(mixed, **{"Calibration/Largest misfit": 1}).taken_as_known if row["entry"].startswith("Interface")}
+    table = {row["entry"] for row in fit_of_pull(mixed, **{"Expert/Calibration/Largest misfit": 1}).taken_as_known if "Interface / " in row["entry"]}
     rows = {I.replace("/", " / ") + name for name in ("Mixed mode / Normal strength", "Mixed mode / Stiffness", "Bonding / Bonding degree")}
     report("of mixed mode those of opening", table == rows, table ^ rows)
 

@@ -71,7 +71,7 @@ def check(shape, curve, law):
     numpy.savetxt("curve.csv", numpy.column_stack([rows[name][turning] for name in (over, load)]), "%.15g", ",", header=f"{over},{load}",
                   comments="")
     unknown = debond.Scene(None, {"Interface/Normal stiffness": "<<eps: 400 in 100..3000 log>>", "Output/Reference curve": "curve.csv",
-                                  "Calibration/Starts": 2}, text=text)
+                                  "Expert/Calibration/Starts": 2}, text=text)
     problem = fits.problem_of(unknown)
     closed = not problem.why_no_closed_form
     says = "\n".join(check_lines(problem))

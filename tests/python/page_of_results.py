@@ -356,7 +356,7 @@ def test_campaigns():
     check(len(paths(text, "line")) == len(re.findall('<path class="band"[^>]*><title>', text)) == 2, "bands")
     check(curves(text)[0]["y"][0] == 0, "the axis does not begin at 0")
     simulate("factors", "Model=foundation", "Interface/Characteristic slip distance={{0.02|0.03}}", "Bone/Young modulus={{15000|16500}}",
-             "Implant/Young modulus={{110000|120000}}", "Study/Factors varied at once=1")
+             "Implant/Young modulus={{110000|120000}}", "Expert/Study/Factors varied at once=1")
     seen = words(page("factors"))
     for said in ("1 first values", "2 Bone / Young modulus = 16500", "3 Implant / Young modulus = 120000",
                  "4 Characteristic slip distance = 0.03"):

@@ -24,7 +24,7 @@ COARSE = {"Bone/Cells": "10, 10, 3", "Implant/Cells": "3, 2", "Load steps/Steps"
 TURNED = {"Chuck/Rotation z/Value": "4 * max(t - 1, 0)"}
 SHEARED = {**TURNED, "Chuck/Translation x/Value": "0.02 * max(t - 1, 0)", "Chuck/Rotation y/Value": "0.05 * max(t - 1, 0)",
            "Chuck/Point": "0.4, -0.3, 2"}
-BONE = {"Interface/Slave": "bone"}
+BONE = {"Expert/Interface/Slave": "bone"}
 PATCHES = {"Interface/Bonding/Pattern": "random", "Interface/Bonding/Bonded fraction": 0.55}
 PIN = {"Output/Fields every": 2, "Load steps/Steps": 3}
 CASES = [("prm/coin_mode3_fast.prm", {**COARSE, **TURNED}), ("prm/coin_mode3_fast.prm", {**COARSE, **SHEARED, **PATCHES}),
@@ -50,7 +50,7 @@ def compare(case, what, parts, expected):
 for scene, changes in CASES:
     worst, n_files = 0., 0
     shutil.rmtree(scratch, ignore_errors=True)
-    changes = {**changes, "Output/Report": "false", "Output/Profile angles": 1.6, "Output/Directory": scratch, "Output/Console": "quiet"}
+    changes = {**changes, "Output/Report": "false", "Expert/Output/Profile angles": 1.6, "Output/Directory": scratch, "Expert/Output/Console": "quiet"}
     command = [program, scene] + [word for entry in changes.items() for word in ("--set", "%s=%s" % entry)]
     if subprocess.run(command, check=False).returncode:
         sys.exit("this failed: %s" % command)
@@ -62,7 +62,7 @@ for scene, changes in CASES:
         compare(scene, "force", points["force_N"], [row[f"chuck_F{k}_N"] for k in "xyz"])
         compare(scene, "moment", points["moment_Nmm"], [row[f"chuck_M{k}_Nmm"] for k in "xyz"])
         compare(scene, "energy", points["energy_Nmm"], row["energy_interface_Nmm"])
-        if changes.get("Interface/Slave") != "bone":  # means are those over the implant's face
+        if changes.get("Expert/Interface/Slave") != "bone":  # means are those over the implant's face
             compare(scene, "bonding", area * points["phi"] / area.sum(), row["phi_mean"])
             compare(scene, "sliding", area * (points["state"] == 2) / area.sum(), row["share_slip"])
     if os.path.exists(scratch + "/profiles.csv") and "coin_mode3" in scene and "Chuck/Point" not in changes:

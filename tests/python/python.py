@@ -27,7 +27,6 @@ subsection Implant
   set Material = linear
 end
 subsection Interface
-  set Quadrature points = 4
   set Normal stiffness = 585
   set Tangential stiffness = 400
 end
@@ -45,6 +44,11 @@ subsection Load steps
 end
 subsection Output
   set Fields every = none
+end
+subsection Expert
+  subsection Interface
+    set Quadrature points = 4
+  end
 end
 """
 
@@ -64,7 +68,7 @@ def mistake(call):
 
 def same_as_summary(entries):
     """Whether run() has all measures of the summary.json that write() leaves, with these among them."""
-    scene = debond.Scene(text=coin, entries={"Output/Console": "quiet", "Output/Report": False, **entries})
+    scene = debond.Scene(text=coin, entries={"Expert/Output/Console": "quiet", "Output/Report": False, **entries})
     with open(scene.write("summarised", force=True) + "/summary.json", encoding="utf-8") as file:
         written = json.load(file)
     mine = scene.run().summary
@@ -82,10 +86,10 @@ def check_program():
           set(rows) == set(table.dtype.names)
           and all(numpy.allclose(rows[name], table[name], rtol=1e-11, atol=0) for name in rows))
     check("the same from a text", numpy.array_equal(rows["torque_Nmm"], debond.Scene(text=coin).run().rows["torque_Nmm"]))
-    directory = debond.Scene("coin.prm", {"Output/Console": "quiet"}).write("of_python", force=True)
+    directory = debond.Scene("coin.prm", {"Expert/Output/Console": "quiet"}).write("of_python", force=True)
     check("the same files in a directory", open("of_program/torque.csv").read() == open(directory + "/torque.csv").read()
           and os.path.exists(directory + "/report.html"))
-    asked = {"Output/Friction energy from angle": 2, "Output/Observed bonding": 0.8, "Output/Reference curve": "of_program/torque.csv"}
+    asked = {"Expert/Output/Friction energy from angle": 2, "Expert/Output/Observed bonding": 0.8, "Output/Reference curve": "of_program/torque.csv"}
     check("the measures of summary.json", same_as_summary({}) and same_as_summary({"Model": "foundation"}))
     check("and with what Output asks for", same_as_summary(asked) and same_as_summary({"Model": "foundation", **asked}))
     try:
@@ -223,12 +227,12 @@ def check_more():
 
 
 def check_calibration():
-    debond.Scene(text=coin, entries={"Output/Console": "quiet"}).write("measured", force=True)
+    debond.Scene(text=coin, entries={"Expert/Output/Console": "quiet"}).write("measured", force=True)
     fit = debond.calibrate(debond.Scene(text="set Task = calibrate\n" + coin, entries={
         "Interface/Friction coefficient unbroken": "<<0.5 in 0.3..1.2>>",
         "Interface/Characteristic slip distance": "<<0.015 in 0.006..0.1 log>>",
         "Output/Reference curve": "measured/torque.csv", "Output/Reference columns": "angle_deg, torque_Nmm",
-        "Output/Directory": "fit", "Calibration/Starts": 4}), force=True)
+        "Output/Directory": "fit", "Expert/Calibration/Starts": 4}), force=True)
     found = [unknown["value"] for unknown in fit["unknowns"].values()]
     defaults = debond.Scene(text=coin).parameters
     truth = [float(next(line for line in defaults.splitlines() if f"set {name} " in line).split("=")[1].split("#")[0])

@@ -14,7 +14,6 @@ COIN = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + "
 subsection Bone
   set Cells       = 8, 8, 2
   set Material    = linear
-  set Solver = multigrid
 end
 subsection Implant
   set Cells    = 4, 2
@@ -31,14 +30,23 @@ end
 subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 4
-  set Residual tolerance = 1e-10
 end
 subsection Output
-  set Console = quiet
-  set Report  = false
+  set Report = false
+end
+subsection Expert
+  subsection Bone
+    set Solver = multigrid
+  end
+  subsection Load steps
+    set Residual tolerance = 1e-10
+  end
+  subsection Output
+    set Console = quiet
+  end
 end
 """
-DIRECT = {"Bone/Solver": "direct"}
+DIRECT = {"Expert/Bone/Solver": "direct"}
 STIFFER = {"Interface/Normal stiffness": 1800}
 LONGER = {"Load steps/Steps": [1, 9], **STIFFER}  # other numbers of sums over processes
 

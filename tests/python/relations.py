@@ -56,7 +56,8 @@ class Change:
     def entries(self, scene):
         result = {}
         for name, text in scene.entries.items():
-            section, _, entry = name.rpartition("/")
+            expert = "Expert/" * name.startswith("Expert/")
+            section, _, entry = name[len(expert):].rpartition("/")
             sign = 1
             if section[6:] in COMPONENTS:  # of the chuck
                 k = COMPONENTS.index(section[6:])
@@ -79,7 +80,7 @@ class Change:
                 text = f"{y}, {x}, {z}"
             if entry == "Point":
                 text = ", ".join(map(repr, (self.P @ [float(x) for x in text.split(",")]).tolist()))
-            result[f"{section}/{entry}"] = text
+            result[f"{expert}{section}/{entry}"] = text
         return result
 
     def rows(self, rows):
@@ -128,7 +129,7 @@ def equal_laws(scene):
         yield equal("friction = dilatant of no height", Law="dilatant", Dilatant__Height="0", Dilatant__Length="0.05", Opening_breaks_bond=scene.entries.get("Interface/Opening breaks bond"))
     if law == "friction" and friction == "modified coulomb" and "Interface/Opening breaks bond" not in scene.entries:
         yield equal("friction = adhesive of no strength", Law="adhesive", Adhesive__Strength="0", Adhesive__Gap_at_strength="0.01")
-    if law == "mixed mode" and scene.entries["Interface/Mixed mode/Exponent"] == "1":
+    if law == "mixed mode" and scene.entries["Expert/Interface/Mixed mode/Exponent"] == "1":
         yield equal("benzeggagh-kenane = power law", Mixed_mode__Criterion={"power law": "benzeggagh-kenane"}.get(
             scene.entries["Interface/Mixed mode/Criterion"], "power law"))
     if scene.entries["Interface/Tangential stiffness"] == scene.entries["Interface/Normal stiffness"]:

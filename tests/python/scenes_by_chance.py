@@ -10,6 +10,8 @@ import numpy
 
 SHAPES = ("coin", "pin", "block", "taper", "ring", "cup in a shell", "cap", "screw", "fitted coin", "cup in a block", "file")
 LAWS = ("coulomb", "modified coulomb", "adhesive", "table", "ageing", "mixed mode", "slip", "dilatant", "frictionless")
+EXPERT = ("Quadrature points", "Slave", "Evolution", "Opening viscosity", "Exponent", "Contact surface", "Layer grading", "Lateral grading", "Resolution",
+          "File columns")
 DRIVES = ("twisted", "by a moment", "by a spring", "sheared", "tilted", "pulled", "cyclic", "by a force", "all at once", "tables")
 CORNERS = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])  # of a cell
 SIDES = {"bottom": (0, 1, 2, 3), "top": (4, 5, 6, 7), "x": ((0, 3, 7, 4), (1, 2, 6, 5)), "y": ((0, 1, 5, 4), (3, 2, 6, 7))}
@@ -125,7 +127,7 @@ class Drawn:
     def __init__(self, seed):
         self.chance = random.Random(f"scene {seed}")
         self.what = SHAPES[seed % len(SHAPES)], LAWS[seed % len(LAWS)], DRIVES[seed % len(DRIVES)]
-        self.entries, self.files = {"Load steps/Residual tolerance": "1e-12", "Output/Report": "false"}, {}
+        self.entries, self.files = {"Expert/Load steps/Residual tolerance": "1e-12", "Output/Report": "false"}, {}
         self.in_bore = self.what[0].split()[0] in ("pin", "taper", "screw", "cup")
         self.on_side = self.in_bore and not self.what[0].startswith("cup")
         self.E = self.number(2e3, 2e4)
@@ -141,7 +143,8 @@ class Drawn:
 
     def set(self, section, **entries):
         for name, value in entries.items():
-            self.entries[f"{section}/{name.replace('_', ' ')}"] = str(value)
+            name = name.replace("_", " ")
+            self.entries["Expert/" * (name in EXPERT) + f"{section}/{name}"] = str(value)
 
     def file(self, name, what):
         self.files[name] = what
@@ -207,7 +210,7 @@ class Drawn:
                 self.set("Bone", Cells=f"{around}, 1, 1"), self.set("Implant", Cells=f"{around}, 1, 1")
             elif shape != "screw" and self.maybe(0.3):
                 self.set("Bone", Cells=f"{pick((8, 12, 16))}, 1, 3")
-                if int(self.entries["Interface/Quadrature points"]) % 2 and not self.entries["Bone/Cells"].startswith(f"{around},"):
+                if int(self.entries["Expert/Interface/Quadrature points"]) % 2 and not self.entries["Bone/Cells"].startswith(f"{around},"):
                     self.set("Interface", Quadrature_points=2)  # middles of elements may face a border, where the normal may turn
             if shape == "pin" and self.maybe(0.4):
                 self.set("Implant", Inner_radius=round(0.4 * R, 4))
@@ -224,7 +227,7 @@ class Drawn:
             self.set("Interface", Interference=pick((self.interference, f"{self.interference} * (0.2 + 0.8 * min(t, 1))")))
             return
         self.set("Bone", Size=f"{r(6, 8)}, {r(6, 8)}, {r(2, 4)}", Cells=f"{pick((4, 5))}, {pick((4, 6))}, {pick((1, 2))}")
-        if self.entries["Interface/Slave"] == "bone":  # points on x = 0 may face a border of elements: which one is rounding
+        if self.entries["Expert/Interface/Slave"] == "bone":  # points on x = 0 may face a border of elements: which one is rounding
             self.entries["Bone/Cells"] = "4" + self.entries["Bone/Cells"][1:]
         if shape == "file":
             self.add_meshes()

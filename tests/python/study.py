@@ -49,7 +49,6 @@ end
 # The block of the implant's chuck moves sideways, so that the bone needs further contact unknowns and condenses anew.
 BLOCK = f"include {os.path.dirname(os.path.abspath(__file__))}/../coin.prm\n" + """
 subsection Interface
-  set Quadrature points = 3
   subsection Bonding
     set Pattern = expression
   end
@@ -70,6 +69,11 @@ subsection Load steps
 end
 subsection Output
   set Fields every = none
+end
+subsection Expert
+  subsection Interface
+    set Quadrature points = 3
+  end
 end
 """
 FOUR = "set A = {{1|2|3}}\nset B = {{m: x|y}}\nset C = {{m: p|q}}\nset D = {{u|v}}"
@@ -139,12 +143,12 @@ def check_variants():
     same(values_of(FOUR, 1), "1,x,p,u 2,x,p,u 3,x,p,u 1,y,q,u 1,x,p,v")
     same(values_of(FOUR, 2), "1,x,p,u 2,x,p,u 3,x,p,u 1,y,q,u 2,y,q,u 3,y,q,u 1,x,p,v 2,x,p,v 3,x,p,v 1,y,q,v")
     same(values_of(FOUR, 3), values_of(FOUR))
-    assert "cannot be one of the factors of Study / Factors varied at once" in values_of("set A = {{1|2}}\nset B = {{x||y}}", 1)
+    assert "cannot be one of the factors of Expert / Study / Factors varied at once" in values_of("set A = {{1|2}}\nset B = {{x||y}}", 1)
 
 
 def check_repetitions():
     """Every variant is run three times; seconds are the middle ones. A repetition that is missing is made up for, and no other."""
-    changes = ("Model=foundation", "Interface/Friction coefficient broken={{0.3|0.4}}", "Study/Repetitions=3")
+    changes = ("Model=foundation", "Interface/Friction coefficient broken={{0.3|0.4}}", "Expert/Study/Repetitions=3")
     study("coin.prm", "repetitions", *changes)
     files = [f"repetitions/variant-002/repetition-{i}.json" for i in (1, 2, 3)]
     same(sorted(glob.glob("repetitions/variant-002/repetition-*")), files)
@@ -160,7 +164,7 @@ def check_repetitions():
     study("coin.prm", "repetitions", *changes)
     same(before, [os.stat(name).st_mtime_ns for name in (files[0], "repetitions/variant-001/summary.json")])
     check_medians()
-    same(study("coin.prm", "repetitions", *changes, "Output/Console=quiet"), "")
+    same(study("coin.prm", "repetitions", *changes, "Expert/Output/Console=quiet"), "")
     row = table("repetitions")[0]
     assert 0 < float(row["seconds_before_steps"]) < float(row["wall_seconds"]) and 0 < float(row["seconds_stepping"])
 
@@ -233,9 +237,9 @@ class Waiting(Variant):
         self.name, self.scene, self.n_repetitions = name, _debond.Scene(entries, "block.prm", _debond.Team(0)), repetitions
 
 
-SMALL = ("Bone/Cells=6, 6, 1", "Bone/Material=linear", "Implant/Cells=2, 1", "Implant/Material=linear", "Interface/Quadrature points=2")
+SMALL = ("Bone/Cells=6, 6, 1", "Bone/Material=linear", "Implant/Cells=2, 1", "Implant/Material=linear", "Expert/Interface/Quadrature points=2")
 SPLINES = ("Bone/Element=spline", "Bone/Cells=16, 16, 1", "Bone/Material=linear", "Implant/Cells=2, 1", "Implant/Material=linear",
-           "Interface/Quadrature points=4")
+           "Expert/Interface/Quadrature points=4")
 
 
 def check_queue():
@@ -260,8 +264,8 @@ def check_what_is_shared():
     for change in ("Interface/Friction coefficient unbroken=1", "Interface/Normal stiffness=1000", "Interface/Bonding/Bonding degree=0.5",
                    "Load steps/Steps=1, 7", "Output/Directory=elsewhere"):
         assert share(change), change
-    for change in ("Bone/Young modulus=17000", "Bone/Layer grading=1.5", "Implant/Young modulus=100000", "Implant/Height=2",
-                   "Implant/Radius=2", "Implant/Cells=3, 1", "Interface/Slave=bone", "Interface/Quadrature points=3",
+    for change in ("Bone/Young modulus=17000", "Expert/Bone/Layer grading=1.5", "Implant/Young modulus=100000", "Implant/Height=2",
+                   "Implant/Radius=2", "Implant/Cells=3, 1", "Expert/Interface/Slave=bone", "Expert/Interface/Quadrature points=3",
                    "Chuck/Translation x/Value=0.1 + t"):
         assert not share(change), change
     # whether the lattice solver takes the bone depends on what moves the implant

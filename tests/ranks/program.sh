@@ -54,7 +54,7 @@ ranks 2 $scene --set "Accuracy=20 %" --set Output/Directory=accuracy || cat said
 grep -c '"error_estimate": 0.05' accuracy/summary.json
 
 echo "refused"
-ranks 2 $scene --set "Bone/Solver=direct" --set Output/Directory=no || said "that solver is for one process, and here are 2"
+ranks 2 $scene --set "Expert/Bone/Solver=direct" --set Output/Directory=no || said "that solver is for one process, and here are 2"
 ranks 5 $scene --set "Bone/Cells=2,2,1" --set Output/Directory=few || said "5 processes cannot share 4 cells"
 ranks 2 $scene --set "Bone/Cells=four" --set Output/Directory=no || said "--set: Bone / Cells = 'four'"
 ls no 2> /dev/null
@@ -75,7 +75,7 @@ exec 9<&-
 OMPI_MCA_btl=tcp,self OMPI_MCA_btl_tcp_if_include=lo ranks 2 $scene --set "Load steps/Steps=1,1" --set Output/Directory=tcp && echo "by TCP"
 
 echo "a process that is killed"
-"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,40" --set "Output/Checkpoint minutes=1e-9" --set "Output/Fields every=none" --set Output/Directory=killed > said 2>&1 &
+"$run" "$mpirun" 2 "$debond" $scene --set "Load steps/Steps=1,40" --set "Expert/Output/Checkpoint minutes=1e-9" --set "Output/Fields every=none" --set Output/Directory=killed > said 2>&1 &
 job=$!
 while [ ! -e killed/checkpoint-2 ]; do sleep 0.1; done
 kill -9 "$(pgrep -f "Output/Directory=killed" | tail -n 1)"

@@ -24,16 +24,22 @@ scene_of(const std::string &change)
 subsection Bone
   set Cells       = 10, 10, 4
   set Material    = linear
-  set Solver = multigrid
 end
 subsection Implant
   set Cells    = 3, 2
   set Material = linear
 end
 subsection Load steps
-  set Times              = 0, 1, 1.1
-  set Steps              = 1, 8
-  set Residual tolerance = 1e-11
+  set Times = 0, 1, 1.1
+  set Steps = 1, 8
+end
+subsection Expert
+  subsection Bone
+    set Solver = multigrid
+  end
+  subsection Load steps
+    set Residual tolerance = 1e-11
+  end
 end
 )",
                     {change});

@@ -38,9 +38,13 @@ subsection Implant
   set Material = linear
 end
 subsection Load steps
-  set Times              = 0, 1, 1.05, 1.2
-  set Steps              = 1, 4, 3
-  set Residual tolerance = 1e-11
+  set Times = 0, 1, 1.05, 1.2
+  set Steps = 1, 4, 3
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-11
+  end
 end
 )";
 }
@@ -49,7 +53,7 @@ const std::string block = "set Cells = 12, 12, 4",
                   core  = "set Shape = file\nset Mesh file = " DEBOND_SOURCE_DIR
                          "/prm/meshes/bone_core.msh";
 
-const Changes splines{"Bone/Element=spline", "Bone/Layer grading=1.5"};
+const Changes splines{"Bone/Element=spline", "Expert/Bone/Layer grading=1.5"};
 
 /** The rows of a run. */
 std::vector<TorqueRow>
@@ -99,11 +103,12 @@ compare(const std::string &name,
         const Changes     &changes,
         const std::string &bone = block)
 {
-  const auto whole = rows_of(changes + Changes{"Bone/Solver=multigrid"}, bone);
+  const auto whole =
+    rows_of(changes + Changes{"Expert/Bone/Solver=multigrid"}, bone);
   std::vector<TorqueRow> direct;
   {
     const Ranks::Together alone(MPI_COMM_SELF);
-    direct = rows_of(changes + Changes{"Bone/Solver=direct"}, bone);
+    direct = rows_of(changes + Changes{"Expert/Bone/Solver=direct"}, bone);
   }
   if (!Ranks::is_first())
     return;
@@ -128,12 +133,12 @@ main()
   compare("pattern, the bone as slave",
           {"Interface/Bonding/Pattern=expression",
            "Interface/Bonding/Expression=x > 0.3",
-           "Interface/Slave=bone"});
+           "Expert/Interface/Slave=bone"});
   compare("a path that is followed",
           {"Load steps/Path following=slip",
            "Load steps/Times=0,1,1.1",
            "Load steps/Steps=1,15",
-           "Load steps/Residual tolerance=1e-10"});
+           "Expert/Load steps/Residual tolerance=1e-10"});
   compare("modulus by the place",
           {"Bone/Young modulus=18000 * exp(0.3 * x - (z + 1)^2)"});
   compare("splines, modulus of 1 to 100 by the place, Neo-Hooke",
@@ -145,8 +150,8 @@ main()
                     "Interface/Normal stiffness=18000"});
   compare("a cap with bilinear faces, adaptive steps",
           {"Implant/Shape=cap",
-           "Implant/Contact surface=bilinear",
-           "Bone/Contact surface=bilinear",
+           "Expert/Implant/Contact surface=bilinear",
+           "Expert/Bone/Contact surface=bilinear",
            "Load steps/Adaptive=true",
            "Load steps/Steps=1, 1, 1"});
   compare("a modulus along x", {"Bone/Young modulus=18000 * exp(0.3 * x)"});
@@ -154,10 +159,10 @@ main()
           {"Bone/Element=quadratic",
            "Bone/Cells=8, 8, 2",
            "Bone/Material=neo-hookean"});
-  compare("hanging nodes", {"Bone/Coarser below=true"});
+  compare("hanging nodes", {"Expert/Bone/Coarser below=true"});
   compare("quadratic elements, hanging nodes",
           {"Bone/Element=quadratic",
-           "Bone/Coarser below=true",
+           "Expert/Bone/Coarser below=true",
            "Bone/Cells=8, 8, 2"});
   compare("a bone from a file", {}, core);
   compare("a pin in a sleeve",

@@ -250,7 +250,7 @@ test_coarser_scene()
                                   "Load steps/Adaptive=false",
                                   "Output/Directory=results/numerics",
                                   "Output/Fields every=5",
-                                  "Output/Profile angles=1"}),
+                                  "Expert/Output/Profile angles=1"}),
               coarser = coarser_scene(scene).value();
   report("  half the planned steps, or one more",
          coarser.load_steps.steps == std::vector<unsigned int>{1, 16} &&
@@ -341,8 +341,10 @@ test_none()
                                 "Load steps/Steps=auto"});
   for (const auto &[section, names] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{
-         {"Bone", {"Cells", "Element", "Layer grading", "Material"}},
-         {"Implant", {"Cells", "Element", "Layer grading", "Material"}},
+         {"Bone", {"Cells", "Element", "Material"}},
+         {"Implant", {"Cells", "Element", "Material"}},
+         {"Expert / Bone", {"Layer grading"}},
+         {"Expert / Implant", {"Layer grading"}},
          {"Load steps", {"Steps", "Adaptive", "Tolerance"}}})
     for (const std::string &name : names)
       if (!default_entries().has({{section}, name, "auto", ""}))

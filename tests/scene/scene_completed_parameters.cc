@@ -13,7 +13,7 @@
 
 using namespace Debond;
 
-/** "Interface / Slave = implant" of each entry. */
+/** "Expert / Interface / Slave = implant" of each entry. */
 std::vector<std::string>
 entries_of(const std::string &text)
 {
@@ -56,7 +56,7 @@ main()
                                   "Implant/Shape=block",
                                   "Implant/Cells=4, 5, 2",
                                   "Bone/Material=linear",
-                                  "Interface/Slave=bone"});
+                                  "Expert/Interface/Slave=bone"});
   const Scene again = Scene::from_text(scene.completed_parameters);
   report("round trip of the completed parameters",
          again.completed_parameters == scene.completed_parameters);

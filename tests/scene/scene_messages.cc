@@ -63,6 +63,7 @@ main()
   show("low cap",
        in("Implant", "set Height = 0.5"),
        {"Implant/Shape=cap", "Implant/Cap radius=3"});
-  show("thin cells", in("Bone", "set Lateral grading = 9"));
+  show("thin cells", turning, {"Expert/Bone/Lateral grading=9"});
+  show("old place", in("Implant", "set Layer grading = 2"));
   show("too many cells", in("Bone", "set Cells = 2000, 2000, 2"));
 }

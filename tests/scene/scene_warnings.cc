@@ -85,8 +85,9 @@ main()
   show({"Interface/Characteristic slip distance=22"});
   show({"Interface/Characteristic slip distance=22e-6"});
   show({"Interface/Characteristic slip distance=22e-6", law + "law=coulomb"});
-  show({"Interface/Slave=bone"});
-  show({"Interface/Slave=bone", "Interface/Characteristic slip distance=0.3"});
+  show({"Expert/Interface/Slave=bone"});
+  show({"Expert/Interface/Slave=bone",
+        "Interface/Characteristic slip distance=0.3"});
   show({"Interface/Law=adhesive"});
   show({"Interface/Law=adhesive", "Interface/Adhesive/Gap at strength=5"});
   show({"Interface/Law=adhesive",
@@ -104,11 +105,11 @@ main()
   show({"Bone/Poisson ratio=0.47"});
   show({"Bone/Poisson ratio=0.47", "Bone/Element=spline"});
   show({"Bone/Cells=60, 60, 2"});
-  show({"Bone/Cells=60, 60, 2", "Interface/Quadrature points=8"});
+  show({"Bone/Cells=60, 60, 2", "Expert/Interface/Quadrature points=8"});
   show({"Bone/Cells=60, 60, 2", "Bone/Element=spline"});
   show({"Bone/Cells=60, 60, 2",
         "Bone/Element=spline",
-        "Interface/Quadrature points=7"});
+        "Expert/Interface/Quadrature points=7"});
 
   // the rim over the bone's cells, rows of points over its edge
   const std::string shear = "Chuck/Translation x/Value=",
@@ -150,7 +151,7 @@ main()
 
   show({"Load steps/Tolerance=1e-2"});
   show({"Load steps/Tolerance=1e-2", "Load steps/Adaptive=true"});
-  show({"Load steps/Largest slip step=1e-3"});
+  show({"Expert/Load steps/Largest slip step=1e-3"});
   show({"Closed form/Shear modulus=50", "Closed form/Pressure=2"});
   show({"Closed form/Shear modulus=50", "Model=crack"});
   show({"Bone/Material=rigid", "Bone/Young modulus=17"});

@@ -7,8 +7,12 @@
 
 const std::string scene_text = R"(
 subsection Interface
-  set Friction law      = coulomb
-  set Quadrature points = 10
+  set Friction law = coulomb
+end
+subsection Expert
+  subsection Interface
+    set Quadrature points = 10
+  end
 end
 )" + pressed_then("Rotation z", "2 * max(t - 1, 0)") +
                                R"(
@@ -24,7 +28,8 @@ const std::vector<std::string> coarse{},
 std::vector<std::string>
 surfaces(const std::string &bone, const std::string &implant)
 {
-  return {"Bone/Contact surface=" + bone, "Implant/Contact surface=" + implant};
+  return {"Expert/Bone/Contact surface=" + bone,
+          "Expert/Implant/Contact surface=" + implant};
 }
 
 

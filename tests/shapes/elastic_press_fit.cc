@@ -65,7 +65,11 @@ error_with(const unsigned int n_around)
                                   "subsection Load steps\n"
                                   "  set Times = 0, 1\n"
                                   "  set Steps = 1\n"
-                                  "  set Residual tolerance = 1e-10\n"
+                                  "end\n"
+                                  "subsection Expert\n"
+                                  "  subsection Load steps\n"
+                                  "    set Residual tolerance = 1e-10\n"
+                                  "  end\n"
                                   "end\n",
                            {"Bone/Cells=" + cells, "Implant/Cells=" + cells});
   RevolvedBody pin;

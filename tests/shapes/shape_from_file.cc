@@ -18,21 +18,27 @@
 using namespace Debond;
 
 const std::string torsion = R"(
-subsection Interface
-  set Quadrature points = 5
-end
 subsection Bone
   set Material = linear
 end
 subsection Implant
   set Material = linear
 end
+subsection Expert
+  subsection Interface
+    set Quadrature points = 5
+  end
+end
 )" + pressed_then("Rotation z", "4 * max(t - 1, 0)") +
                             R"(
 subsection Load steps
   set Times = 0, 1, 2
   set Steps = 1, 40
-  set Residual tolerance = 1e-11
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-11
+  end
 end
 )";
 
@@ -86,8 +92,8 @@ void
 first_order(const std::string &what, const Overrides &materials)
 {
   const Overrides bilinear =
-    materials + Overrides{"Bone/Contact surface=bilinear",
-                          "Implant/Contact surface=bilinear"};
+    materials + Overrides{"Expert/Bone/Contact surface=bilinear",
+                          "Expert/Implant/Contact surface=bilinear"};
   const auto rows = run_scene("bilinear", torsion, bilinear);
   for (const bool shuffled : {false, true})
     report(what + (shuffled ? ", cells turned" : ""),
@@ -132,14 +138,14 @@ void
 small_face(const std::string &what, const Overrides &materials)
 {
   const Overrides bilinear =
-    materials + Overrides{"Bone/Contact surface=bilinear",
-                          "Implant/Contact surface=bilinear"};
+    materials + Overrides{"Expert/Bone/Contact surface=bilinear",
+                          "Expert/Implant/Contact surface=bilinear"};
   const Scene     scene = coin_scene(torsion, bilinear);
   const BulkSpace bone(scene.bone, Side::bone);
   write_small_face(bone, "small.msh", 4.3, Boundary::free);
   const Overrides small{"Bone/Shape=file",
                         "Bone/Mesh file=small.msh",
-                        "Implant/Contact surface=bilinear"};
+                        "Expert/Implant/Contact surface=bilinear"};
   report(what + ", a contact face that ends on the top",
          difference(run_scene("bilinear", torsion, bilinear),
                     run_scene("small", torsion, materials + small)),
@@ -214,7 +220,7 @@ quadratic()
 {
   const Overrides bone{"Bone/Element=quadratic",
                        "Bone/Cells=16, 16, 3",
-                       "Bone/Cells under implant=8"};
+                       "Expert/Bone/Cells under implant=8"};
   const auto      splines = run_scene("splines",
                                  torsion,
                                  bone + Overrides{"Implant/Element=spline",
@@ -248,10 +254,14 @@ ridges()
 subsection Bone
   set Material = linear
   set Cells    = 18, 18, 3
-  set Contact surface = bilinear
 end
 subsection Implant
   set Material = linear
+end
+subsection Expert
+  subsection Bone
+    set Contact surface = bilinear
+  end
 end
 )" + pressed_then("Translation x", "0.4 * max(t - 1, 0)") +
                             R"(

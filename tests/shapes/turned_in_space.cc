@@ -88,7 +88,11 @@ rows_of(const Bodies &bodies, const Eigen::Matrix3d &Q)
                                                "subsection Load steps\n"
                                                "  set Times = 0, 1\n"
                                                "  set Steps = 6\n"
-                                               "  set Residual tolerance = 1e-12\n"
+                                               "end\n"
+                                               "subsection Expert\n"
+                                               "  subsection Load steps\n"
+                                               "    set Residual tolerance = 1e-12\n"
+                                               "  end\n"
                                                "end\n");
   scene.interface.bonding.pattern = BondingPatternKind::file;
   scene.interface.bonding.file    = "pattern.csv";

@@ -81,9 +81,13 @@ check(const std::string    &name,
       set Material = linear
     end
     subsection Interface
-      set Quadrature points            = 4
       set Normal stiffness            = 600
       set Tangential stiffness = 350
+    end
+    subsection Expert
+      subsection Interface
+        set Quadrature points = 4
+      end
     end)" + changes;
   for (const char *component : ChuckParameters::names)
     {
@@ -186,8 +190,10 @@ main()
 {
   set_up_libraries();
   const std::string bone_is_slave = R"(
-    subsection Interface
-      set Slave = bone
+    subsection Expert
+      subsection Interface
+        set Slave = bone
+      end
     end)";
 
   // nearly flat: sticking and slipping points, some of them softening

@@ -19,9 +19,13 @@ subsection Chuck
   end
 end
 subsection Load steps
-  set Times              = 0, 1, 1.01, 3
-  set Steps              = 1, 1, 20
-  set Residual tolerance = 1e-10
+  set Times = 0, 1, 1.01, 3
+  set Steps = 1, 1, 20
+end
+subsection Expert
+  subsection Load steps
+    set Residual tolerance = 1e-10
+  end
 end
 )";
 
@@ -244,7 +248,7 @@ check_small_tolerance(const std::string &tolerance, const std::string &material)
                       "Chuck/Translation z/Control=force",
                       "Chuck/Translation z/Value=-50 * min(t, 1)",
                       "Load steps/Steps=1, 1, 4",
-                      "Load steps/Residual tolerance=" + tolerance});
+                      "Expert/Load steps/Residual tolerance=" + tolerance});
   double      excess = 0;
   while (loaded.advance())
     grow(excess, std::abs(loaded.system.chuck_forces()[2] / -50 - 1));

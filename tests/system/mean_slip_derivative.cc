@@ -28,11 +28,13 @@ check(const std::string &slave)
     subsection Implant
       set Material = linear
     end
-    subsection Interface
-      set Slave             = )" +
+    subsection Expert
+      subsection Interface
+        set Slave             = )" +
                                  slave +
                                  R"(
-      set Quadrature points = 4
+        set Quadrature points = 4
+      end
     end
     subsection Chuck
       subsection Press

@@ -159,8 +159,10 @@ main()
       set Tangential stiffness = 1000
     end)";
   const std::string bone_is_slave = R"(
-    subsection Interface
-      set Slave = bone
+    subsection Expert
+      subsection Interface
+        set Slave = bone
+      end
     end)";
   const std::string tilted        = R"(
     subsection Chuck

@@ -165,7 +165,7 @@ check_linear_bodies()
   const Rows        path    = run_scene("path",
                               text,
                               {"Load steps/Path following=slip",
-                                         "Load steps/Largest slip step=5e-5"});
+                                         "Expert/Load steps/Largest slip step=5e-5"});
 
   // where the path turns back, and where it comes forward for good
   unsigned int turn = 0, last_turn = 0;

@@ -220,8 +220,10 @@ main()
   set_up_libraries();
   const std::string linear        = bodies_of("linear");
   const std::string bone_is_slave = R"(
-    subsection Interface
-      set Slave = bone
+    subsection Expert
+      subsection Interface
+        set Slave = bone
+      end
     end)";
   // a failing step that ends beyond the elements that contact has reached
   const std::string shear          = R"(

@@ -83,7 +83,7 @@ test()
   check("Neo-Hookean bodies", to_the_last_digit, {});
   check("bone as slave",
         to_the_last_digit,
-        {"Interface/Slave=bone", "Interface/Friction law=coulomb"});
+        {"Expert/Interface/Slave=bone", "Interface/Friction law=coulomb"});
   check("more than 20000 unknowns, whose factorisation is threaded",
         1e-10,
         {"Bone/Material=linear",

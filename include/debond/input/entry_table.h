@@ -45,7 +45,8 @@ namespace Debond
      *  or a bool or an enumeration whose values are in the order of the choice.
      *  @p documentation is for users and states the unit. Throws EntryError if
      *  the member has a value that is not allowed. Laws may share an entry: it
-     *  has one row, and goes to the members of all. */
+     *  has one row, and goes to the members of all. With "Expert / " before
+     *  its name it stands under `Expert`, in the subsections that are open. */
     template <typename T>
     void
     add(const std::string   &name,
@@ -84,7 +85,11 @@ namespace Debond
     bool
     means(const SceneEntry &entry, const std::string &text) const;
 
-    /** All entries with their values. */
+    /** The full name of an entry; @p full_name need not have `Expert`. */
+    std::string
+    placed(const std::string &full_name) const;
+
+    /** All entries with their values, those under `Expert` last. */
     std::vector<SceneEntry>
     entries() const;
 

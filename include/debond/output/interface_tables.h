@@ -16,9 +16,9 @@ namespace Debond
   class ResultDirectory;
 
   /** Tables of the points of the interface: profiles.csv at the rows whose
-   * angle first reaches one of `Output / Profile angles`, maps.csv at those
-   * where something happens, on a grid for pictures (doc/reference/results.md),
-   * and friction_law.csv. */
+   * angle first reaches one of `Expert / Output / Profile angles`, maps.csv at
+   * those where something happens, on a grid for pictures
+   * (doc/reference/results.md), and friction_law.csv. */
   class InterfaceTables
   {
   public:
@@ -40,8 +40,8 @@ namespace Debond
      *  warning about angles that were never reached, or nothing. */
     std::string
     write_profiles() const;
-    /** Distance of the written profiles from `Output / Reference profiles`;
-     *  undefined without any. */
+    /** Distance of the written profiles from the reference; undefined
+     *  without any. */
     nlohmann::ordered_json
     measures() const;
     /** Writes maps.csv. @p last_row ends the run. */

@@ -177,7 +177,7 @@ namespace Debond
     bool is_bonded = true;
     /** Whether the mean phi falls as the bond breaks, and by nothing else. */
     bool phi_only_falls = true;
-    /** `Output / Friction energy from angle` [deg]; 0: from the curve. */
+    /** `Expert / Output / Friction energy from angle` [deg]; 0: the curve's. */
     double full_sliding_angle_deg = 0;
     /** First time and ends of the phases, `Load steps / Times`. */
     std::vector<double> phase_times;

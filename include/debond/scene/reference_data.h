@@ -38,9 +38,9 @@ namespace Debond
   /** Angle [deg] -> points. */
   using Profiles = std::map<double, std::vector<ProfilePoint>>;
 
-  /** Reads a profiles.csv. Throws EntryError that names the entry `Output /
-   *  Reference profiles`, the file, the line and what was expected. An empty
-   *  @p filename gives no profiles. */
+  /** Reads a profiles.csv. Throws EntryError that names the entry, the
+   *  file, the line and what was expected. An empty @p filename gives no
+   *  profiles. */
   Profiles
   read_profiles(const std::string &filename);
 } // namespace Debond

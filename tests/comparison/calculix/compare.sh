@@ -107,7 +107,7 @@ awk -f "$here/reactions.awk" "$directory/calculix.inp" "$directory/calculix.dat"
 for surface in nurbs bilinear; do
   timed "debond_$surface" "$debond" "$scene" "${sets[@]}" --set "Output/Directory=$directory/$surface" --force \
     --set "Output/Fields every=none" --set "Output/Curve=Rotation z, Moment z" \
-    --set "Bone/Contact surface=$surface" --set "Implant/Contact surface=$surface"
+    --set "Expert/Bone/Contact surface=$surface" --set "Expert/Implant/Contact surface=$surface"
   all_seconds+=" $seconds"
   awk -F, '
     FNR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }

@@ -11,9 +11,9 @@ directory=$(mktemp -d)
 trap 'rm -rf "$directory"' EXIT
 
 "$python" "$here/coin.py" --bone 15,15,2 --implant 6,2 > "$directory/getfem.csv"
-"$debond" "$here/../coin.prm" --set "Output/Directory=$directory/debond" --set Output/Console=quiet \
+"$debond" "$here/../coin.prm" --set "Output/Directory=$directory/debond" --set Expert/Output/Console=quiet \
   --set "Bone/Cells=15,15,2" --set "Implant/Cells=6,2" \
-  --set "Bone/Contact surface=bilinear" --set "Implant/Contact surface=bilinear"
+  --set "Expert/Bone/Contact surface=bilinear" --set "Expert/Implant/Contact surface=bilinear"
 
 # torque.csv has one row more, that of the first time.
 awk -F, -v within="$within" '

@@ -15,7 +15,7 @@ motion()
   for component in Translation\ {x,y,z} Rotation\ {x,y,z}; do
     [[ "$*" == *"Chuck/$component/"* ]] || options+=(--set "Chuck/$component/Value=0")
   done
-  for entry in "Interface/Quadrature points=4" "$@"; do
+  for entry in "Expert/Interface/Quadrature points=4" "$@"; do
     options+=(--set "$entry")
   done
   for direction in trial integrated; do
@@ -29,8 +29,8 @@ motion()
   done
 }
 
-motion growing_twist_cycles "Interface/Bonding/Pattern=expression" "Interface/Bonding/Resolution=quadrature point" \
-  "Bone/Size=9, 7, 4" "Bone/Cells=7, 7, 3" "Bone/Layer grading=1.5" "Implant/Radius=2" "Implant/Height=2.5" \
+motion growing_twist_cycles "Interface/Bonding/Pattern=expression" "Expert/Interface/Bonding/Resolution=quadrature point" \
+  "Bone/Size=9, 7, 4" "Bone/Cells=7, 7, 3" "Expert/Bone/Layer grading=1.5" "Implant/Radius=2" "Implant/Height=2.5" \
   "Implant/Cells=4, 3" "Bone/Young modulus=600" "Implant/Young modulus=2500" "Bone/Poisson ratio=0.4" \
   "Implant/Poisson ratio=0.4" "Interface/Normal stiffness=900" "Interface/Tangential stiffness=350" \
   "Interface/Characteristic slip distance=0.02" "Interface/Transition factor=0.9" \
@@ -47,12 +47,12 @@ motion tilt_opens_while_sheared_to_and_fro "Bone/Young modulus=700" "Implant/You
   "Chuck/Press/Value=0.02 * min(t, 1)" "Chuck/Translation y/Value=0.05 * sin(2 * pi * max(t - 1, 0))" \
   "Chuck/Rotation x/Value=2 * sin(3 * pi * max(t - 1, 0))" "Chuck/Rotation y/Value=-0.8 * max(t - 1, 0)" \
   "Load steps/Times=0, 1, 2.5" "Load steps/Steps=1, 40"
-motion bone_slave_cycles_and_depth "Interface/Slave=bone" "Bone/Cells=9, 9, 2" "Interface/Quadrature points=3" \
+motion bone_slave_cycles_and_depth "Expert/Interface/Slave=bone" "Bone/Cells=9, 9, 2" "Expert/Interface/Quadrature points=3" \
   "Bone/Young modulus=800" "Implant/Young modulus=3000" "Bone/Poisson ratio=0.4" "Interface/Normal stiffness=900" \
   "Interface/Tangential stiffness=400" "Interface/Characteristic slip distance=0.015" \
   "Chuck/Press/Value=0.03 * min(t, 1) + 0.012 * sin(3 * max(t - 1, 0))" \
   "Chuck/Rotation z/Value=4 * sin(2 * pi * max(t - 1, 0))" "Load steps/Times=0, 1, 2.5" "Load steps/Steps=1, 36"
-motion zigzag_in_x_and_y "Interface/Bonding/Pattern=expression" "Interface/Bonding/Resolution=quadrature point" \
+motion zigzag_in_x_and_y "Interface/Bonding/Pattern=expression" "Expert/Interface/Bonding/Resolution=quadrature point" \
   "Bone/Young modulus=1500" "Implant/Young modulus=9000" "Interface/Normal stiffness=3000" \
   "Interface/Tangential stiffness=1200" "Interface/Characteristic slip distance=0.008" \
   "Interface/Bonding/Expression=exp(-((x - 1)^2 + (y + 0.5)^2) / 2)" "Chuck/Press/Value=0.012 * min(t, 1)" \
@@ -64,7 +64,7 @@ motion forty_degrees_and_back "Implant/Radius=1.8" "Implant/Height=4" "Implant/C
   "Interface/Tangential stiffness=300" "Interface/Characteristic slip distance=0.2" "Chuck/Press/Value=0.04 * min(t, 1)" \
   "Chuck/Rotation z/Value=40 * min(max(t - 1, 0), 1) - 60 * max(t - 2, 0)" "Chuck/Translation x/Value=0.1 * max(t - 1.5, 0)" \
   "Load steps/Times=0, 1, 2, 3" "Load steps/Steps=1, 9, 15"
-motion table_with_tilt "Interface/Bonding/Pattern=expression" "Interface/Bonding/Resolution=quadrature point" \
+motion table_with_tilt "Interface/Bonding/Pattern=expression" "Expert/Interface/Bonding/Resolution=quadrature point" \
   "Bone/Young modulus=1000" "Implant/Young modulus=5000" "Bone/Poisson ratio=0.4" "Implant/Poisson ratio=0.35" \
   "Interface/Normal stiffness=800" "Interface/Tangential stiffness=2500" "Interface/Friction law=table" \
   "Interface/Friction table=tests/comparison/numpy/table.csv" \

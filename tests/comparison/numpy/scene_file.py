@@ -17,17 +17,17 @@ FREE_TEXT = object()  # entries that say nothing about the mechanics
 
 # Defaults of debond, from `debond --print-parameters`; a tuple holds all values that the solver
 # knows, the default first.
-BODY = {'Element': ('trilinear',), 'Layer grading': 1., 'Material': ('neo-hookean', 'linear'), 'Poisson ratio': .3,
-        'Contact surface': ('nurbs',)}
+BODY = {'{}/Element': ('trilinear',), 'Expert/{}/Layer grading': 1., '{}/Material': ('neo-hookean', 'linear'), '{}/Poisson ratio': .3,
+        'Expert/{}/Contact surface': ('nurbs',)}
 ENTRIES = {
     'Title': FREE_TEXT, 'Accuracy': ('none',), 'Model': ('finite elements',), 'Task': ('simulate',),
-    **{'Bone/' + name: value for name, value in BODY.items()},
+    **{name.format('Bone'): value for name, value in BODY.items()},
     'Bone/Size': [12.5, 12.5, 5.], 'Bone/Cells': [15., 15., 2.], 'Bone/Young modulus': 18000.,
-    'Bone/Lateral grading': ('1',), 'Bone/Cells under implant': ('none',), 'Bone/Rim grading': ('1.5',),
-    **{'Implant/' + name: value for name, value in BODY.items()},
+    'Expert/Bone/Lateral grading': ('1',), 'Expert/Bone/Cells under implant': ('none',), 'Expert/Bone/Rim grading': ('1.5',),
+    **{name.format('Implant'): value for name, value in BODY.items()},
     'Implant/Shape': ('coin',), 'Implant/Radius': 2.5, 'Implant/Height': 3., 'Implant/Cells': [3., 2.],
     'Implant/Young modulus': 113000.,
-    'Interface/Slave': ('implant', 'bone'), 'Interface/Quadrature points': 5.,
+    'Expert/Interface/Slave': ('implant', 'bone'), 'Expert/Interface/Quadrature points': 5.,
     'Interface/Normal stiffness': 585., 'Interface/Tangential stiffness': 'auto',
     'Interface/Friction law': ('modified coulomb', 'coulomb', 'frictionless', 'table', 'rate and state'),
     'Interface/Friction coefficient': .4, 'Interface/Friction coefficient broken': .4, 'Interface/Friction coefficient unbroken': .58,
@@ -37,19 +37,20 @@ ENTRIES = {
     'Interface/Rate and state/Reference coefficient': .4, 'Interface/Rate and state/Direct effect': .01,
     'Interface/Rate and state/Evolution effect': .015, 'Interface/Rate and state/Reference speed': 1e-3,
     'Interface/Rate and state/Sliding distance': .01, 'Interface/Rate and state/Initial state': 'auto',
-    'Interface/Rate and state/Evolution': ('ageing', 'slip'),
+    'Expert/Interface/Rate and state/Evolution': ('ageing', 'slip'),
     'Interface/Law': ('friction', 'adhesive', 'mixed mode', 'dilatant'),
     'Interface/Adhesive/Strength': 0., 'Interface/Adhesive/Gap at strength': 1.,
     'Interface/Adhesive/Adhesive friction': 0.,
     'Interface/Dilatant/Height': 0., 'Interface/Dilatant/Length': 1.,
     **{'Interface/Mixed mode/' + name: 1. for name in ('Normal strength', 'Shear strength', 'Fracture energy I',
-                                                       'Fracture energy II', 'Stiffness', 'Exponent')},
+                                                       'Fracture energy II', 'Stiffness')},
+    'Expert/Interface/Mixed mode/Exponent': 1.,
     'Interface/Mixed mode/Criterion': ('benzeggagh-kenane', 'power law'),
     'Interface/Bonding/Pattern': ('homogeneous', 'expression'), 'Interface/Bonding/Bonding degree': 1.,
-    'Interface/Bonding/Resolution': ('element', 'quadrature point'), 'Interface/Bonding/Expression': '1',
+    'Expert/Interface/Bonding/Resolution': ('element', 'quadrature point'), 'Interface/Bonding/Expression': '1',
     'Load steps/Times': [0., 1., 2.], 'Load steps/Steps': [1., 1000.], 'Load steps/Adaptive': ('false',),
-    'Load steps/Residual tolerance': 1e-8,
-    **{'Output/' + name: FREE_TEXT for name in ('Directory', 'Fields every', 'Console', 'Checkpoint every')},
+    'Expert/Load steps/Residual tolerance': 1e-8,
+    **{name: FREE_TEXT for name in ('Output/Directory', 'Output/Fields every', 'Expert/Output/Console', 'Expert/Output/Checkpoint every')},
 }
 COMPONENTS = ['%s %s' % (kind, axis) for kind in ('Translation', 'Rotation') for axis in 'xyz']
 PRESS = 'Chuck/Press/Value'  # into the bone, instead of Translation z
@@ -142,12 +143,12 @@ class Scene:
         nx, ny, nz = _whole(get('Bone/Cells'))
         if nx != ny:
             raise NotSupported('as many cells of the bone in x as in y')
-        return solids.bone_block(get('Bone/Size'), (nx, nz), get('Bone/Layer grading'), get('Bone/Young modulus'),
+        return solids.bone_block(get('Bone/Size'), (nx, nz), get('Expert/Bone/Layer grading'), get('Bone/Young modulus'),
                                  get('Bone/Poisson ratio'), get('Bone/Material'))
 
     def _implant(self):
         get = self.entries.get
-        return solids.coin(self.radius, self.height, _whole(get('Implant/Cells')), get('Implant/Layer grading'),
+        return solids.coin(self.radius, self.height, _whole(get('Implant/Cells')), get('Expert/Implant/Layer grading'),
                            get('Implant/Young modulus'), get('Implant/Poisson ratio'), get('Implant/Material'))
 
     def _friction_law(self):
@@ -159,7 +160,7 @@ class Scene:
             values = [get('Interface/Rate and state/' + name) for name in names]
             values[-1] = 0. if values[-1] == 'auto' else float(values[-1])
             return friction.RateAndState(*values,
-                                         get('Interface/Rate and state/Evolution') == 'ageing')
+                                         get('Expert/Interface/Rate and state/Evolution') == 'ageing')
         broken, unbroken = (get('Interface/Friction coefficient ' + name) for name in ('broken', 'unbroken'))
         if law == 'table':
             rows = np.genfromtxt(get('Interface/Friction table'), delimiter=',', names=True)
@@ -186,8 +187,9 @@ class Scene:
             return joint.Dilatant(friction_law, stiffness, *(get('Interface/Dilatant/' + name)
                                                              for name in ('Height', 'Length')))
         if law == 'mixed mode':
-            normal, shear, first, second, initial, exponent = (get('Interface/Mixed mode/' + name) for name in (
-                'Normal strength', 'Shear strength', 'Fracture energy I', 'Fracture energy II', 'Stiffness', 'Exponent'))
+            normal, shear, first, second, initial = (get('Interface/Mixed mode/' + name) for name in (
+                'Normal strength', 'Shear strength', 'Fracture energy I', 'Fracture energy II', 'Stiffness'))
+            exponent = get('Expert/Interface/Mixed mode/Exponent')
             power_law = get('Interface/Mixed mode/Criterion') == 'power law'
             return joint.MixedMode(friction_law, stiffness, (normal, shear), (first, second), initial, power_law,
                                    exponent)
@@ -198,9 +200,9 @@ class Scene:
         """phi_0 as a function of x, y (m,) [mm]."""
         get = self.entries.get
         homogeneous = get('Interface/Bonding/Pattern') == 'homogeneous'
-        if not homogeneous and get('Interface/Bonding/Resolution') != 'quadrature point':
+        if not homogeneous and get('Expert/Interface/Bonding/Resolution') != 'quadrature point':
             raise NotSupported('an expression of the bonding needs Resolution = quadrature point')
-        if not homogeneous and get('Interface/Slave') == 'bone':
+        if not homogeneous and get('Expert/Interface/Slave') == 'bone':
             raise NotSupported('an expression of the bonding needs Slave = implant')
         expression = _expression('1' if homogeneous else get('Interface/Bonding/Expression'), R=self.radius)
         factor = get('Interface/Bonding/Bonding degree')
@@ -209,12 +211,12 @@ class Scene:
     def simulation(self):
         get = self.entries.get
         bone, implant = self._bone(), self._implant()
-        slave, master, towards = (implant, bone, +1) if get('Interface/Slave') == 'implant' else (bone, implant, -1)
-        points = int(get('Interface/Quadrature points'))
+        slave, master, towards = (implant, bone, +1) if get('Expert/Interface/Slave') == 'implant' else (bone, implant, -1)
+        points = int(get('Expert/Interface/Quadrature points'))
         contact = interface.Interface(slave, master, towards, self._law(), points, self._bonding(), get('Interface/Viscosity'),
                                       get('Expert/Slip direction') == 'integrated')
         area = interface.face_quadrature(implant, points)[1].sum()
-        return simulation.Simulation(bone, implant, contact, area, self.height, get('Load steps/Residual tolerance'))
+        return simulation.Simulation(bone, implant, contact, area, self.height, get('Expert/Load steps/Residual tolerance'))
 
     def _friction(self, time):
         """Whether a step that begins at this time has friction."""

@@ -132,6 +132,13 @@ class Drawn:
         self.words.append(load)
 
 
+def load_at(x, y, position):
+    """Of a curve, at a position that only grows."""
+    k = min(max(bisect.bisect_right(x, position), 1), len(x) - 1)
+    width = x[k] - x[k - 1]
+    return y[k - 1] + (y[k] - y[k - 1]) * ((position - x[k - 1]) / width if width else 0)
+
+
 class Run:
     """What a scene came to. Raises RuntimeError if the program does, TimeoutExpired."""
 
@@ -153,13 +160,6 @@ class Run:
         with open(directory + "/curve.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.x, self.y = ([float(row[name]) for row in rows] for name in names)
-        self.slope = curve["initial_stiffness"] if curve else self.summary["initial_stiffness_Nmm_per_rad"]
-
-    def at(self, x):
-        """The load at a position that only grows."""
-        k = min(max(bisect.bisect_right(self.x, x), 1), len(self.x) - 1)
-        width = self.x[k] - self.x[k - 1]
-        return self.y[k - 1] + (self.y[k] - self.y[k - 1]) * ((x - self.x[k - 1]) / width if width else 0)
 
     def entries(self):
         found, path = {}, []
@@ -198,9 +198,10 @@ def truth_of(run, options, seed):
                                 "Load steps/Tolerance": options.accuracy / 20}, f"{options.directory}/truth-{seed}", options.seconds)
     every = max(1, len(true.x) // 80)
     top = max(range(len(true.y)), key=lambda i: abs(true.y[i]))
-    rows = sorted({*range(0, len(true.x), every), top, len(true.x) - 1})
+    begin = next(i for i, x in enumerate(true.x) if abs(x) > 1e-12)
+    rows = sorted({*range(0, len(true.x), every), *range(begin - 1, min(begin + 9, len(true.x))), top, len(true.x) - 1})
     x, y = ([float(f"{values[i]:.7g}") for i in rows] for values in (true.x, true.y))
-    return {"x": x, "y": y, "slope": true.slope, "cells": more["Bone/Cells"], "levels": levels, "seconds": round(true.seconds, 1)}
+    return {"x": x, "y": y, "cells": more["Bone/Cells"], "levels": levels, "seconds": round(true.seconds, 1)}
 
 
 def main():
@@ -232,8 +233,10 @@ def main():
             continue
         true = truths[str(seed)]
         top = max(map(abs, true["y"]))
-        errors = (max(abs(run.at(x) - y) for x, y in zip(true["x"], true["y"])) / top, abs(max(map(abs, run.y)) / top - 1),
-                  abs(run.slope / true["slope"] - 1) if true["slope"] else 0)
+        first_way = next(x for x in run.x if abs(x) > 1e-12)  # where both first slopes are taken
+        slope = load_at(true["x"], true["y"], first_way)
+        errors = (max(abs(load_at(run.x, run.y, x) - y) for x, y in zip(true["x"], true["y"])) / top, abs(max(map(abs, run.y)) / top - 1),
+                  abs(load_at(run.x, run.y, first_way) / slope - 1) if slope else 0)
         said = run.summary.get("error_estimate") or math.nan
         n_accurate += max(errors) <= options.accuracy
         n_bounded += max(errors) <= said

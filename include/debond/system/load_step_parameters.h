@@ -115,7 +115,8 @@ namespace Debond
      *  empty: it can. */
     std::string
     why_not_lattice() const;
-    /** What `Expert / Bone / Solver' comes to, never automatic, and in words. */
+    /** What `Expert / Bone / Solver' comes to, never automatic, and in words.
+     */
     BulkSolver
     bulk_solver() const;
     std::string

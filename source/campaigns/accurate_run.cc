@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 // Runs of one scene with more and more cells, until its error is small enough.
 namespace Debond
@@ -141,12 +142,15 @@ namespace Debond
 
 
     /** The scene with more cells, if these help and may be; @p text says what
-     * is tried, or why it is not. @p summary: of the run with the scene. */
+     * is tried, or why it is not, or that it has failed before. @p summary: of
+     * the run with the scene. */
     std::optional<Scene>
     next_scene(const Scene                  &scene,
                const nlohmann::ordered_json &summary,
                std::string                  &text)
     {
+      if (!text.empty())
+        return {};
       const auto percent = [&summary](const std::string &name) {
         return to_text(100. * number_in(summary, name), 2) + " %";
       };
@@ -205,8 +209,8 @@ namespace Debond
     if (goes_on && checkpoint->state.empty())
       checkpoint = nullptr;
     const ResultDirectory directory = open_directory(scene, goes_on);
-    std::optional<Scene>  before;  // which the scene has more cells than
-    std::string           failure; // of a scene with more cells
+    std::optional<Scene>  before; // which the scene has more cells than
+    std::string           text;   // why more cells fail, or what is tried next
     for (bool has_coarser = false;; checkpoint = nullptr)
       {
         const auto coarser = coarser_scene(scene);
@@ -227,8 +231,8 @@ namespace Debond
           run_finer(scene, std::move(bodies), checkpoint, bool(before));
         if (!why.empty())
           {
-            failure = "more cells, " + cells_in_words(scene) + ", fail: " + why;
-            say(scene, failure + "\nAgain with " + cells_in_words(*before));
+            text = "more cells, " + cells_in_words(scene) + ", fail: " + why;
+            say(scene, text + "\nAgain with " + cells_in_words(*before));
             scene       = *before;
             before      = {};
             has_coarser = false;
@@ -245,13 +249,10 @@ namespace Debond
                       "made coarser");
         if (!(error > scene.accuracy))
           return;
-        if (!failure.empty())
-          return add_warning(directory, summary, failure);
-        std::string text;
-        const auto  finer = next_scene(scene, summary, text);
+        const auto finer = next_scene(scene, summary, text);
         if (!finer)
           return add_warning(directory, summary, text);
-        say(scene, text);
+        say(scene, std::exchange(text, ""));
         // the same as what would be the coarser run of the finer one
         const auto next = coarser_scene(*finer);
         has_coarser     = !scene.load_steps.rows_are_planned() &&

@@ -205,9 +205,11 @@ namespace Debond
   {
     const std::vector<std::string> chosen = choices_in(parameters);
     std::vector<SceneEntry> entries = read_scene_text(parameters, "parameters");
-    for (SceneEntry &entry : entries)
-      if (is_among(chosen, entry.full_name()))
-        entry.value = entry.name == "Cells under implant" ? "none" : "auto";
+    const auto              was_chosen = [&](const SceneEntry &entry) {
+      return is_among(chosen, entry.full_name());
+    };
+    entries.erase(std::remove_if(entries.begin(), entries.end(), was_chosen),
+                  entries.end());
     return entries;
   }
 

@@ -185,10 +185,19 @@ test_scenes()
   test_scene("Coin on a soft interface", {});
   test_scene("Coin on a stiff one", stiff);
   test_scene("Cap", stiff + Changes{"Implant/Shape=cap"});
-  test_scene("Block", {"Implant/Shape=block"});
-  test_scene("Ring", {"Implant/Shape=ring", "Implant/Inner radius=1"});
+  const Changes block{"Implant/Shape=block"},
+    ring{"Implant/Shape=ring", "Implant/Inner radius=1"};
+  test_scene("Block", block);
+  test_scene("Block on a stiff interface", stiff + block);
+  test_scene("Ring", ring);
+  test_scene("Ring on a stiff interface", stiff + ring);
   test_scene("Pin in a sleeve",
              in_sleeve + Changes{"Implant/Shape=pin", "Implant/Height=5"});
+  test_scene("Pin that is levered, on a stiff interface",
+             stiff + in_sleeve +
+               Changes{"Implant/Shape=pin",
+                       "Implant/Height=5",
+                       "Chuck/Rotation x/Value=0.01 * t"});
   test_scene("Pin whose fit becomes tighter",
              in_sleeve + Changes{"Implant/Shape=pin",
                                  "Implant/Height=5",
@@ -211,6 +220,9 @@ test_scenes()
               "Implant/Mesh file=" + meshes + "stem.msh",
               "Implant/Element=quadratic",
               "Interface/Law=adhesive"});
+  test_scene("A bond for each element",
+             {"Interface/Bonding/Pattern=random",
+              "Interface/Bonding/Bonded fraction=0.5"});
   test_scene("Along a path", stiff + Changes{"Load steps/Path following=slip"});
   const std::string sideways = "Chuck/Translation x/Value=";
   test_scene("Moved sideways",

@@ -172,3 +172,51 @@ echo "goes on by the scene: yes"
 
 grep -Eq "Largest torque 53\.[0-9]+ \+- 0\.0[1-9][0-9] N mm at 1\.[0-9]+ \+- 0\.0" results/whole.log || fail "the error is not said with two digits"
 echo "errors have two digits: yes"
+
+# More cells that fail: thin layers of large cells turn them inside out. The result before them stays, and says so.
+cat > cup.prm <<SCENE
+set Accuracy = 0.3 %
+subsection Bone
+  set Shape         = cavity
+  set Outer radius  = 6
+  set Ends          = slide
+  set Young modulus = 4740
+  set Material      = linear
+end
+subsection Implant
+  set Shape         = cup
+  set Radius        = 3
+  set Height        = 3
+  set Young modulus = 3600
+  set Material      = linear
+end
+subsection Interface
+  set Normal stiffness     = 124000
+  set Tangential stiffness = 124000
+  set Friction law         = coulomb
+  set Friction coefficient = 0.4
+  set Interference         = 0.002
+end
+subsection Load steps
+  set Times     = 0, 1
+  set Tolerance = 0.002
+end
+subsection Chuck
+  subsection Rotation z
+    set Value = 0.02 * t
+  end
+end
+subsection Output
+  set Report = false
+end
+subsection Expert
+  subsection Bone
+    set Layer grading = 3
+  end
+end
+SCENE
+"$debond" cup.prm --threads 1 --set Output/Directory=results/cup > results/cup.log 2>&1 || fail "a scene whose finer cells fail"
+grep -q "^warning: more cells, 8, 6, 5 and 8, 2, 5, fail: " results/cup.log || fail "no warning that more cells fail"
+grep -q "^ *set Cells *= 8, 4, 3" results/cup/parameters.prm || fail "cells after more of them have failed"
+grep -q '"converged": true' results/cup/summary.json || fail "summary after more cells have failed"
+echo "more cells that fail leave the result before them: yes"

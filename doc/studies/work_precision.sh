@@ -56,9 +56,9 @@ print(accuracy, seconds, summary["difference_max"], summary["error_estimate"], "
   done
 fi
 
-for study in work_precision{_closed_forms,_coulomb,_coulomb_splines,_ends,_splines,_quadratic,}; do
-  [[ -f $results/$study/study.csv ]] ||
-    { echo "work_precision.sh: nothing to draw yet: there is no $results/$study/study.csv; run without --draw first" >&2; exit 1; }
+for file in work_precision{_closed_forms,_coulomb,_coulomb_splines,_ends,_splines,_quadratic,}/study.csv work_precision_accuracy.csv; do
+  [[ -f $results/$file ]] ||
+    { echo "work_precision.sh: nothing to draw yet: there is no $results/$file; run without --draw first" >&2; exit 1; }
 done
 start=$(cat $results/start)
 awk -v start="$start" -f doc/studies/gather.awk $results/work_precision{_closed_forms,_ends,_splines,_quadratic,}/study.csv > $results/work_precision.csv

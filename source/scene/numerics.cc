@@ -31,18 +31,6 @@ namespace Debond
         return set == scene.entries.rend() || set->value == "auto";
       }
 
-      /** Whether the cells of a body, set or chosen, follow its rim. */
-      bool
-      is_fitted(const std::string &section, const BodyParameters &body) const
-      {
-        const auto chosen =
-          std::find_if(entries.begin(), entries.end(), [&](const auto &entry) {
-            return entry.full_name() == section + " / Cells";
-          });
-        return chosen == entries.end() ? body.is_fitted() :
-                                         chosen->value[0] == 'f';
-      }
-
       void
       choose(const std::string &section,
              const std::string &name,
@@ -171,7 +159,9 @@ namespace Debond
       choice.choose("Bone", "Element", "spline");
       choice.choose("Implant",
                     "Element",
-                    is_ring && !choice.is_fitted("Implant", implant) ?
+                    is_ring && !(choice.is_open("Implant", "Cells") ?
+                                   follows_rim :
+                                   implant.is_fitted()) ?
                       "quadratic" :
                       "spline");
     }

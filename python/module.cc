@@ -279,15 +279,8 @@ namespace
                                return values;
                              })
       .def_property_readonly("finer", finer_scene) // None if it sets its cells
-      .def_property_readonly(
-        "n_unknowns",
-        [](const Scene &s) {
-          double sum = 0.;
-          for (const auto *const body : {&s.bone, &s.implant})
-            if (!body->is_rigid())
-              sum += n_unknowns_of(*body);
-          return sum;
-        })
+      .def_property_readonly("n_unknowns",
+                             [](const Scene &s) { return n_unknowns_of(s); })
       .def_property_readonly("sample_times",
                              [](const Scene &s) {
                                return s.load_steps.sample_times();

@@ -108,18 +108,6 @@ namespace Debond
 
 
 
-    double
-    n_unknowns(const Scene &scene)
-    {
-      double sum = 0.;
-      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
-        if (!body->is_rigid())
-          sum += n_unknowns_of(*body);
-      return sum;
-    }
-
-
-
     /** Empty: a scene with so many unknowns and seconds may be run. */
     std::string
     why_not_finer(const Scene &finer, const double n, const double seconds)
@@ -171,7 +159,7 @@ namespace Debond
           return {};
         }
       // condensation takes the square of the unknowns, most others less
-      const double n = n_unknowns(*finer), before = n_unknowns(scene),
+      const double n = n_unknowns_of(*finer), before = n_unknowns_of(scene),
                    needed = number_in(summary, "wall_seconds") *
                             (n > 0. ? std::pow(n / before, 1.5) : 3.);
       const std::string more = cells_in_words(*finer) + " cells, " +

@@ -29,6 +29,16 @@ namespace Debond
                    (p * n[0] + 1.) * (p * n[1] + 1.) * p * n[2] + on_face);
   }
 
+  double
+  n_unknowns_of(const ModelParameters &model)
+  {
+    double sum = 0.;
+    for (const BodyParameters *const body : {&model.bone, &model.implant})
+      if (!body->is_rigid())
+        sum += n_unknowns_of(*body);
+    return sum;
+  }
+
 
 
   namespace

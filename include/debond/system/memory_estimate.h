@@ -22,6 +22,9 @@ namespace Debond
    *  are coarser below; of any other about. */
   double
   n_unknowns_of(const BodyParameters &body);
+  /** The same of both bodies, a rigid one without any. */
+  double
+  n_unknowns_of(const ModelParameters &model);
 
   /**
    * Memory that a finite element run needs at its peak [GB], of several ranks

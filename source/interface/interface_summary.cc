@@ -53,6 +53,18 @@ namespace Debond
 
 
 
+  double
+  ContactInterface::smallest_gap() const
+  {
+    double smallest = std::numeric_limits<double>::infinity(); // [mm]
+    for (const SlavePoint &point : points)
+      if (point.accepted.has_partner)
+        smallest = std::min(smallest, point.trial.normal_gap);
+    return smallest;
+  }
+
+
+
   bool
   ContactInterface::is_detached() const
   {

@@ -428,6 +428,37 @@ namespace Debond
 
 
 
+  // Faces that do not touch yet offer no resistance to the load that presses
+  // them together. The chuck is brought as deep as the load would press the
+  // whole face into the interface, F / (eps_n A). From there Newton's method
+  // finds the depth, which of a curved face is larger.
+  CoupledSystem::Correction
+  CoupledSystem::approach() const
+  {
+    Correction     result;
+    constexpr auto push = ChuckComponent::translation_z;
+    const double   gap  = interface.smallest_gap();
+    if (!chuck.is_loaded(push) || path.follow || gap > 10. * R ||
+        chuck.machine_load(push) >= 0. ||
+        implant.mesh().parameters().geometry().is_in_bore())
+      {
+        result.why = "a loaded chuck has nothing to act against: in this trial "
+                     "no point is in contact";
+        return result;
+      }
+    result.unknowns.setZero(unknowns);
+    for (const auto &[component, row] : configuration.chuck_unknowns)
+      if (component == push)
+        result.unknowns[row] =
+          chuck.machine_load(push) / path.stiffness[push] - gap;
+    if (const auto whole = bone.whole())
+      result.bodies[Side::bone] =
+        whole->at_nodes(Eigen::VectorXd::Zero(whole->n_owned()));
+    return result;
+  }
+
+
+
   // One Newton correction, section 7 of doc/developers/walk.md,
   //
   //   (S + Q^T (df/dx) Q) dv_c = -r,
@@ -447,11 +478,11 @@ namespace Debond
     Correction result;
     if (is_held_by_contact() && interface.summarise().n_closed == 0)
       {
-        result.why = "a loaded chuck has nothing to act against: in this trial "
-                     "no point is in contact";
-        return result;
+        result = approach();
+        if (!result.why.empty())
+          return result;
       }
-    if (bone.whole())
+    else if (bone.whole())
       {
         const WholeSolution solution =
           solve_whole(residual.unknowns,

@@ -298,6 +298,11 @@ namespace Debond
     bool
     has_open_points() const;
 
+    /** Smallest gap of the points that face the master [mm]; infinite: there
+     *  are none. */
+    double
+    smallest_gap() const;
+
     /** Whether it has left nothing of a bond with strength in tension, and
      *  presses nowhere. */
     bool

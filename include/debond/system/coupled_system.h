@@ -273,6 +273,9 @@ namespace Debond
     }
 
   private:
+    /** The correction that brings faces under a load into contact. */
+    Correction
+    approach() const;
     void
     update_configuration();
     /** Forces of interface.force() on the body itself. */

@@ -1206,22 +1206,29 @@ def adaptive_scenes():
         ('fretting: shear by a sine, slow twist', 2, {'Translation x': '0.01 * sin(2 * pi * max(t - 1, 0))',
                                                       'Rotation z': '0.3 * max(t - 1, 0)'}, mesh),
         ('a cap that rocks about x and y', 1, {'Press': '0.02 * min(t, 1)', 'Rotation x': '0.5 * sin(2 * pi * max(t - 1, 0))',
-                                               'Rotation y': '0.3 * sin(4 * pi * max(t - 1, 0))'}, mesh + ('Implant/Shape=cap',)),
+                                               'Rotation y': '0.3 * sin(4 * pi * max(t - 1, 0))'}, mesh + ('Implant/Shape=cap', 'Implant/Cap radius=50')),
         ('under a moment, to and fro: the angle', 2, {'Rotation z': '49.5 * (%s - 1.8 * max(t - 2, 0))' % twice},
          mesh + ('Chuck/Rotation z/Control=moment',))]
     lines = []
+
+    def add(name, scene, groups, phases, n, first=''):
+        reference = run(*scene, 'Load steps/Adaptive=false', 'Load steps/Steps=%s%s' % (first and '30, ', ', '.join([str(n)] * phases)))['curve']
+        line = [name]
+        for tolerance in ('1e-2', '1e-3', '1e-4'):
+            result = run(*scene, 'Load steps/Adaptive=true', 'Load steps/Steps=%s%s' % (first, ', '.join(['10'] * phases)),
+                         'Load steps/Tolerance=' + tolerance)
+            line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve'], groups) / float(tolerance))]
+        lines.append(line)
+
     for name, phases, motion, changes in scenes:
         scene = (MAIN, 'Load steps/Times=' + ', '.join(str(k) for k in range(phases + 2))) + changes + tuple(
             'Chuck/%s/Value=%s' % entry for entry in {'Press': press, 'Rotation z': '0', **motion}.items())
-        reference = run(*scene, 'Load steps/Steps=30' + ', 800' * phases)['curve']
-        groups = [['angle_deg']] if 'under a moment' in name else [FORCES, MOMENTS]
-        line = [name]
-        for tolerance in ('1e-2', '1e-3', '1e-4'):
-            result = run(*scene, 'Load steps/Adaptive=true', 'Load steps/Steps=1' + ', 10' * phases, 'Load steps/Tolerance=' + tolerance)
-            line += [str(len(result['curve'])), '%.1f' % (largest_error(reference, result['fine curve'], groups) / float(tolerance))]
-        lines.append(line)
+        add(name, scene, [['angle_deg']] if 'under a moment' in name else [FORCES, MOMENTS], phases, 800, '1, ')
+    for name, scene in (('pulled at 45 degrees, adhesive', 'coin_45_degrees'), ('pulled at 45 degrees, mixed mode', 'mixed_mode')):
+        add(name, ('prm/adhesion/%s.prm' % scene, 'Accuracy=none', 'Load steps/Times=0, 1', 'Bone/Cells=12, 12, 3') + LINEAR,
+            [['chuck_Fx_N', 'force_N']], 1, 2000)
     return long_table('adaptive_scenes', ['12 x 12 x 3 and 4 x 4 x 2 cells, linear', '1e-2: rows', 'error', '1e-3: rows', 'error', '1e-4: rows', 'error'],
-                      lines, [('twist',), ('shear, then twist',), ('under a moment, to and fro: the angle',)])
+                      lines, [('twist',), ('shear, then twist',), ('under a moment, to and fro: the angle',), ('pulled at 45 degrees, mixed mode',)])
 
 
 def study_of_splines(bone, implant, *changes):
@@ -1310,7 +1317,7 @@ def splines_elsewhere():
         ("Poisson's ratio of the bone 0.49", ('Bone/Poisson ratio=0.49',)),
         ('bonded in a disk, f = 0.55', BONDED_IN_A_DISK),
         ('one half bonded, turned about an axis 0.5 mm off centre', bonded_half + off_centre),
-        ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Chuck/Press/Value=0.02 * min(t, 1)')),
+        ('a cap, pressed by 0.02 mm', ('Implant/Shape=cap', 'Implant/Cap radius=50', 'Chuck/Press/Value=0.02 * min(t, 1)')),
         ('tilted by 0.1 degrees', TILTED),
         ('a force instead of a depth', ('Chuck/Press/Control=force', 'Chuck/Press/Value=51.5 * min(t, 1)'))),
         with_mesh('120, 120, 12', '16, 10', 2, 'spline', '2e-5') + ('Expert/Interface/Quadrature points=8',), choices)

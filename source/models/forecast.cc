@@ -9,7 +9,6 @@
 #include <ostream>
 #include <vector>
 
-
 namespace Debond
 {
   Forecast::Forecast(const Scene &scene)
@@ -23,12 +22,20 @@ namespace Debond
              interface.slip_direction == SlipDirection::previous_gap)
       why = "friction depends on the rate or on the steps";
     else if (scene.implant.geometry().has_closed_forms)
-      of_coin(scene);
+      of_flat_face(scene);
+    else if (scene.implant.shape == BodyShape::ring &&
+             (scene.chuck.component[ChuckComponent::rotation_z].is_unknown() ||
+              interface.bonding_of_law().pattern !=
+                BondingPatternKind::homogeneous))
+      why = "a ring is turned by a moment or through a spring, or bonded in a "
+            "part of its face";
+    else if (scene.implant.shape == BodyShape::ring)
+      of_flat_face(scene);
     else if (fit)
       of_press_fit(scene, *fit);
     else
-      why = "they are for a coin, and for the press fit of a pin in a sleeve "
-            "or of a half sphere in a shell";
+      why = "they are for a coin, a ring, and the press fit of a pin in a "
+            "sleeve or of a half sphere in a shell";
   }
 
 
@@ -88,34 +95,81 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Rows of a coin of this radius on the foundation of @p scene. */
+    std::vector<TorqueRow>
+    rows_of_coin(Scene scene, const double radius)
+    {
+      scene.implant.shape  = BodyShape::coin;
+      scene.implant.radius = radius;
+      return ClosedFormSolution(scene).rows;
+    }
+
+
+
+    /** Of a ring: what the coin carries without the one inside, in equal
+     *  steps, pressed as deep as its force asks for. */
+    std::vector<TorqueRow>
+    rows_of_ring(Scene scene, const double area)
+    {
+      constexpr auto          push  = ChuckComponent::translation_z;
+      LoadSteppingParameters &steps = scene.load_steps;
+      steps.adaptive                = false;
+      steps.steps.assign(steps.times.size() - 1, 300);
+      ChuckComponentParameters &z = scene.chuck.component[push];
+      if (z.loaded)
+        {
+          z.function = [force     = scene.value_over_time(push),
+                        per_depth = area * scene.closed_form.normal_stiffness](
+                         const double t) { return force(t) / per_depth; };
+          z.loaded = z.into_bone = false;
+        }
+      auto       rows   = rows_of_coin(scene, scene.implant.radius);
+      const auto inside = rows_of_coin(scene, scene.implant.inner_radius);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i].torque_Nmm -= inside[i].torque_Nmm;
+      return rows;
+    }
+  } // namespace
+
+
+
+  // What a point of a foundation carries depends on its own radius. On the bone
+  // a ring acts like the coin of its radius.
   void
-  Forecast::of_coin(Scene scene)
+  Forecast::of_flat_face(Scene scene)
   {
     const BodyParameters      &bone = scene.bone, &implant = scene.implant;
     const InterfaceParameters &interface = scene.interface;
     ChuckComponentParameters  &z =
       scene.chuck.component[ChuckComponent::translation_z];
+    const double R = implant.radius, nu = bone.poisson_ratio,
+                 inside =
+                   implant.shape == BodyShape::ring ? implant.inner_radius : 0.,
+                 polar = 1. - std::pow(inside / R, 4);
+    area               = M_PI * (R * R - inside * inside);
 
     // Compliances [mm/MPa] of a layer of bone on a rigid base, on which a rigid
     // disk is pressed or twisted (Gazetas 1983, Soil Dyn. Earthq. Eng. 2, 2-42;
     // infinitely deep Boussinesq and Reissner-Sagoci), and of the implant as a
     // bar of its height.
-    const double R = scene.implant.radius, nu = bone.poisson_ratio;
     const auto of_bodies = [&](const double of_bone, const double of_implant) {
       return (bone.is_rigid() ? 0. : of_bone / bone.young_modulus) +
              (implant.is_rigid() ? 0. : of_implant / implant.young_modulus);
     };
-    const double bar       = 2. * (1. + implant.poisson_ratio) * implant.height,
-                 torsional = of_bodies(3. * M_PI * R / 16. * (1. + nu), bar),
-                 normal    = of_bodies((1. - nu * nu) * M_PI * R /
+    const double bar = 2. * (1. + implant.poisson_ratio) * implant.height,
+                 torsional =
+                   of_bodies(3. * M_PI * R / 16. * (1. + nu) * polar, bar),
+                 normal = of_bodies((1. - nu * nu) * area / R /
                                       (2. + 2.56 * R / bone.size[2]),
                                     implant.height);
     const double stiffness =
       1. / (torsional + 1. / interface.tangential_stiffness());
     const double p_over_depth =
       1. / (normal + 1. / interface.normal_penalty +
-            (z.stiffness > 0. ? M_PI * R * R / z.stiffness : 0.));
-    torsional_stiffness = 0.5 * M_PI * std::pow(R, 4) * stiffness;
+            (z.stiffness > 0. ? area / z.stiffness : 0.));
+    torsional_stiffness = 0.5 * M_PI * std::pow(R, 4) * polar * stiffness;
     // Held at its top, and by friction at its face, a short implant is stiffer
     // than a bar, and a narrow bone softer than a layer.
     const double in_implant =
@@ -137,13 +191,15 @@ namespace Debond
     z.stiffness                           = 0.; // in series above
     try
       {
-        const ClosedFormSolution solution(scene);
-        pressure = solution.rows.back().pressure_MPa;
-        T_end    = solution.rows.back().torque_Nmm;
-        for (const TorqueRow &row : solution.rows)
+        const auto rows =
+          inside > 0. ? rows_of_ring(scene, area) : rows_of_coin(scene, R);
+        pressure = rows.back().pressure_MPa;
+        T_end    = rows.back().torque_Nmm;
+        for (const TorqueRow &row : rows)
           T_max = std::fmax(T_max, std::abs(row.torque_Nmm)); // none at first
         // points trail by L = mu p / eps_t along arcs, T = 2/3 pi mu p R^3
-        const double L = 1.5 * T_max / (M_PI * std::pow(R, 3)) /
+        const double L = 1.5 * T_max /
+                         (M_PI * (std::pow(R, 3) - std::pow(inside, 3))) /
                          interface.tangential_stiffness();
         error += 1.5 * std::pow(L / R, 2);
       }
@@ -210,9 +266,7 @@ namespace Debond
            << std::ceil(1000. * forecast.error) / 10. << " %):\n"
            << "  mean pressure at the end " << forecast.pressure << " MPa";
     if (forecast.why.empty() && forecast.torsional_stiffness > 0.)
-      text << ", force "
-           << forecast.pressure * M_PI * std::pow(scene.implant.radius, 2)
-           << " N\n"
+      text << ", force " << forecast.pressure * forecast.area << " N\n"
            << "  torsional stiffness while everything sticks "
            << forecast.torsional_stiffness << " N mm/rad";
     if (forecast.why.empty())

@@ -274,21 +274,22 @@ namespace Debond
     const double smooth =
       std::max(in_parts(difference(state)),
                in_parts(h / 96. * (last.rates - expected_rates(h))));
-    // Where the error is much more than the fourth power of the step would make
-    // of that of the steps before, or that is not known, there may be a kink or
-    // a jump anywhere in this step. A cubic leaves a kink between two straight
-    // lines by h |m_1 - m_0| / 8, and a jump by half of it and more.
+    // A cubic leaves a kink between two straight lines by h |m_1 - m_0| / 8,
+    // and a jump by half of it and more. Where the error is much more than the
+    // fourth power of the step would make of that of the steps before, or that
+    // is not known, they are taken to be there. Elsewhere there may be one that
+    // the estimate sees a quarter of.
+    const Forces begin = h * current.rates, end = h * last.rates;
+    const double drawn = std::max(
+      {smooth,
+       in_parts((end - begin) / 8.),
+       in_parts((last.answers - current.answers - (begin + end) / 2.) / 2.)});
     const double expected =
       second ? 0. : std::max(bend, bend_before) * std::pow(h, 4);
-    if (smooth < std::max(2. * expected, 0.02))
-      return {smooth, smooth};
-    const Forces begin = h * current.rates, end = h * last.rates;
     return {smooth,
-            std::max(
-              {smooth,
-               in_parts((end - begin) / 8.),
-               in_parts((last.answers - current.answers - (begin + end) / 2.) /
-                        2.)})};
+            smooth < std::max(2. * expected, 0.02) ?
+              std::min(4. * smooth, drawn) :
+              drawn};
   }
 
 

@@ -14,6 +14,7 @@
 
 #include "checks.h"
 #include "coin_scene.h"
+#include "driven_scene.h"
 #include "pressed_and_turned.h"
 
 using namespace Debond;
@@ -74,12 +75,12 @@ check_press_fits()
 {
   const auto forecast = [](const std::string              &motion,
                            const std::vector<std::string> &overrides) {
-    return Forecast(
-      coin_scene("subsection Chuck\n subsection " + motion +
-                   "\n end\nend\n"
-                   "subsection Load steps\n set Times = 0, 1\n set Steps = 1\nend\n"
-                   "subsection Implant\n set Material = rigid\nend\n",
-                 overrides));
+    return Forecast(coin_scene(
+      "subsection Chuck\n subsection " + motion +
+        "\n end\nend\n"
+        "subsection Load steps\n set Times = 0, 1\n set Steps = 1\nend\n"
+        "subsection Implant\n set Material = rigid\nend\n",
+      overrides));
   };
   const std::vector<std::string> pin{"Bone/Shape=sleeve",
                                      "Bone/Outer radius=6",
@@ -132,6 +133,16 @@ main()
   compare("main scene", {});
   compare("both rigid", {"Bone/Material=rigid", "Implant/Material=rigid"});
   compare("stiff interface", {"Interface/Normal stiffness=6000"});
+  using Changes = std::vector<std::string>;
+  const Changes ring{"Implant/Shape=ring",
+                     "Implant/Inner radius=1.25",
+                     "Implant/Cells=16, 2, 2"};
+  compare("ring", ring);
+  compare("ring on a stiff interface",
+          ring + Changes{"Interface/Normal stiffness=3000"});
+  compare("ring under a force",
+          ring +
+            Changes{push + "Control=force", push + "Value=40 * min(t, 1)"});
   compare("deep bone", {"Bone/Size=12.5, 12.5, 10", "Bone/Cells=15, 15, 4"});
   compare("thin bone", {"Bone/Size=12.5, 12.5, 1.5", "Bone/Cells=15, 15, 3"});
   compare("narrow bone", {"Bone/Size=7, 7, 5", "Bone/Cells=9, 9, 3"});
@@ -152,6 +163,9 @@ main()
   compare("under a force",
           {push + "Control=force", push + "Value=51 * min(t, 1)"});
 
+  refuse("ring that is turned by a moment",
+         ring + Changes{twist + "Control=moment",
+                        twist + "Value=10 * max(t - 1, 0)"});
   refuse("deeper while it turns", {push + "Value=0.0049 * t"});
   refuse("half off the bone",
          {"Chuck/Translation x/Value=6", "Load steps/Times=0, 1, 2, 3, 4"});

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 // What of a body is held, and which nodes follow others.
 namespace Debond

@@ -14,7 +14,6 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 // A bulk of any size, of any modulus and on any number of ranks: step-40's
 // matrix of Trilinos and its algebraic multigrid, ML, for elasticity.

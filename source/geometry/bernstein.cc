@@ -1,7 +1,6 @@
 #include <debond/geometry/bernstein.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <stdexcept>
 

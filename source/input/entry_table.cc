@@ -2,7 +2,6 @@
 
 #include <boost/algorithm/string/compare.hpp>
 
-#include <algorithm>
 #include <locale>
 #include <numeric>
 

@@ -15,7 +15,6 @@
 #include <memory>
 #include <regex>
 #include <utility>
-#include <vector>
 
 namespace Debond
 {

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <locale>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <set>
 

@@ -1,7 +1,6 @@
 #include <debond/interface/interface_law.h>
 #include <debond/interface/slip_problem.h>
 
-#include <cmath>
 #include <limits>
 
 // Methods that are there to be compared with, and not to be used: the direction

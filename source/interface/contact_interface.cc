@@ -1,13 +1,10 @@
 #include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
-#include <debond/interface/rigid_motion.h>
 #include <debond/interface/slip_problem.h>
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 // The points of the interface in a step. Newton's method calls evaluate() with

@@ -1,7 +1,5 @@
 #include <debond/models/simulation.h>
-#include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
-#include <debond/support/ranks.h>
 #include <debond/support/runtime.h>
 #include <debond/system/memory_estimate.h>
 

@@ -2,7 +2,6 @@
 #include <debond/support/number_text.h>
 #include <debond/system/step_solver.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Debond

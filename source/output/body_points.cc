@@ -1,5 +1,4 @@
 #include <debond/bulk/body.h>
-#include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
 #include <debond/output/body_points.h>
 #include <debond/support/ranks.h>
@@ -8,7 +7,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>
 
-#include <algorithm>
 #include <limits>
 #include <optional>
 

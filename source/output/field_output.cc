@@ -1,6 +1,5 @@
 #include <debond/bulk/body.h>
 #include <debond/bulk/bulk_space.h>
-#include <debond/output/bulk_fields.h>
 #include <debond/output/field_output.h>
 #include <debond/output/result_files.h>
 #include <debond/support/number_text.h>

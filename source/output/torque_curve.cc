@@ -1,13 +1,11 @@
 #include <debond/input/csv_table.h>
 #include <debond/output/torque_curve.h>
-#include <debond/support/number_text.h>
 
 #include <deal.II/base/numbers.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Debond
 {

@@ -1,6 +1,5 @@
 #include <debond/input/entry_table.h>
 #include <debond/input/input_file.h>
-#include <debond/input/scene_file.h>
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
 #include <debond/shapes/body_mesh.h>

@@ -1,5 +1,4 @@
 #include <debond/scene/scene.h>
-#include <debond/support/number_text.h>
 
 #include <algorithm>
 

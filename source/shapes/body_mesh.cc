@@ -1,7 +1,6 @@
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/mesh_formats.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Debond

@@ -3,7 +3,6 @@
 #include <debond/shapes/body_parameters.h>
 #include <debond/shapes/modulus_field.h>
 #include <debond/support/input_error.h>
-#include <debond/support/number_text.h>
 
 #include <regex>
 #include <utility>

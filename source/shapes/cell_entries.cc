@@ -4,7 +4,6 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
-#include <cmath>
 #include <string>
 #include <vector>
 

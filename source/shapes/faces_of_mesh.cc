@@ -8,7 +8,6 @@
 #include <Eigen/QR>
 
 #include <map>
-#include <utility>
 
 namespace Debond
 {

@@ -3,7 +3,6 @@
 #include <debond/support/number_text.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <regex>
 

@@ -7,11 +7,8 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <exception>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <vector>
 
 // MPI where there is more than one process, or a library that works with it.
 // Initialising it takes 0.3 s, as long as whole runs of this program, so that

@@ -13,7 +13,6 @@
 #include <iostream>
 #include <limits>
 #include <sstream>
-#include <string>
 
 // Declared here because the headers of OpenBLAS declare LAPACK, too, and
 // because this program does not use OpenMP itself.

@@ -3,7 +3,6 @@
 
 #include <debond/bulk/bulk.h>
 
-#include <memory>
 #include <vector>
 
 namespace Debond

@@ -4,7 +4,6 @@
 #include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
-#include <debond/support/input_error.h>
 
 #include <iosfwd>
 #include <memory>

@@ -4,8 +4,6 @@
 #include <debond/output/drawn_patches.h>
 
 #include <array>
-#include <string>
-#include <vector>
 
 namespace Debond
 {

@@ -1,7 +1,6 @@
 #ifndef debond_output_checkpoint_h
 #define debond_output_checkpoint_h
 
-#include <debond/support/input_error.h>
 
 #include <array>
 #include <optional>

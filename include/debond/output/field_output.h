@@ -5,7 +5,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
 #include <map>
 #include <string>
 #include <utility>

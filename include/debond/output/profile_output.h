@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include <string>
 #include <vector>
 
 namespace Debond

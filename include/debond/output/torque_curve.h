@@ -6,7 +6,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>

@@ -88,12 +88,11 @@ namespace Debond
               const dealii::Quadrature<1> &along,
               const unsigned int           n_across)
     {
-      // As many pieces of the rule of the run as make n_across points across
-      // the face, rounded up: an element takes the mean over its area, and a
-      // pattern that is finer than the elements is not met by chance at a few
-      // points.
-      const unsigned int across =
-        along.size() * surface.n_elements_across(); // points of one copy
+      // As many pieces of the rule of the run, each with so many points across,
+      // as make n_across of them across the face, rounded up: an element takes
+      // the mean over its area, and a pattern that is finer than the elements
+      // is not met by chance at a few points.
+      const unsigned int across = along.size() * surface.n_elements_across();
       const dealii::QIterated<2> quadrature(
         along, by_element ? (n_across + across - 1) / across : 1);
       std::vector<double> values;

@@ -155,8 +155,8 @@ namespace Debond
         const double smallest = scene.load_steps.smallest_step_fraction *
                                 (loads.back().time - loads.front().time) /
                                 loads.size();
-        std::vector<Load> to_come(loads.rbegin(),
-                                  loads.rend() - 1); // next: last
+        // the last one comes next
+        std::vector<Load> to_come(loads.rbegin(), loads.rend() - 1);
         loads.resize(1);
         while (!to_come.empty())
           {

@@ -566,8 +566,8 @@ namespace Debond
     row.time       = solver.time();
     row.angle_deg  = q[ChuckComponent::rotation_z];
     row.torque_Nmm = coupled_system.chuck_forces()[ChuckComponent::rotation_z];
-    row.force_N =
-      0. - reaction[ChuckComponent::translation_z]; // no negative zero
+    // no negative zero
+    row.force_N = 0. - reaction[ChuckComponent::translation_z];
     // The mean pressure refers to the area of the undeformed contact face. In a
     // bore it is no matter of the axial force.
     row.pressure_MPa = scene.implant.geometry().is_in_bore() ?

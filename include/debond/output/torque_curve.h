@@ -25,16 +25,16 @@ namespace Debond
     double       time       = 0;
     double       angle_deg  = 0; ///< of the chuck about the implant's own axis
     double       torque_Nmm = 0; ///< about that axis
-    double       force_N =
-      0; ///< minus the axial force along +z: positive in compression
+    /** Minus the axial force along +z: positive in compression. */
+    double force_N      = 0;
     double pressure_MPa = 0; ///< force_N / reference area of the contact face;
                              ///< of implants in a bore the area mean
-    double         phi_mean    = 0;
-    double         share_stick = 0, share_slip = 0, share_open = 0;
-    unsigned int   newton_iterations = 0; ///< summed over sub-steps
-    double         energy_defect     = 0;
-    Chuck::Vector6 chuck_reaction =
-      Chuck::Vector6::Zero(); ///< Fx, Fy, Fz [N], Mx, My, Mz [N mm] about C + u
+    double       phi_mean    = 0;
+    double       share_stick = 0, share_slip = 0, share_open = 0;
+    unsigned int newton_iterations = 0; ///< summed over sub-steps
+    double       energy_defect     = 0;
+    /** Fx, Fy, Fz [N], Mx, My, Mz [N mm] about C + u. */
+    Chuck::Vector6 chuck_reaction = Chuck::Vector6::Zero();
     // further columns
     double work_Nmm = 0, energy_bulk_Nmm = 0, energy_interface_Nmm = 0,
            dissipation_Nmm = 0, adhesive_work_Nmm = 0;

@@ -80,6 +80,33 @@ namespace Debond
         "[-kN], turns the sign. `auto': time, or else angle_deg, and " +
           columns + " as Control says, else the only columns with such units.");
     }
+
+
+
+    // C_k = 1/k! - t^2/(k + 2)! + t^4/(k + 4)! - ...: C_0 = cos t, C_1 = sin t
+    // / t, C_2 = (1 - cos t)/t^2, and so on by t^2 C_(k+2) = 1/k! - C_k.
+    std::array<double, 6>
+    stumpff_functions(const double t)
+    {
+      std::array<double, 6> C{{std::cos(t), 1., 0., 0., 0., 0.}};
+      if (t != 0.)
+        C[1] = std::sin(t) / t;
+      double factorial = 1.;
+      for (unsigned int k = 0; k < 4; factorial *= ++k)
+        if (t > 1.)
+          C[k + 2] = (1. / factorial - C[k]) / (t * t);
+        else
+          {
+            double term = 1. / factorial;
+            for (unsigned int n = k + 1; n < k + 20; n += 2)
+              {
+                term /= n * (n + 1.);
+                C[k + 2] += term;
+                term *= -t * t;
+              }
+          }
+      return C;
+    }
   } // namespace
 
 
@@ -222,36 +249,6 @@ namespace Debond
     return (3. * values(time) - 4. * values(time - h) + values(time - 2. * h)) /
            (2. * h);
   }
-
-
-
-  namespace
-  {
-    // C_k = 1/k! - t^2/(k + 2)! + t^4/(k + 4)! - ...: C_0 = cos t, C_1 = sin t
-    // / t, C_2 = (1 - cos t)/t^2, and so on by t^2 C_(k+2) = 1/k! - C_k.
-    std::array<double, 6>
-    stumpff_functions(const double t)
-    {
-      std::array<double, 6> C{{std::cos(t), 1., 0., 0., 0., 0.}};
-      if (t != 0.)
-        C[1] = std::sin(t) / t;
-      double factorial = 1.;
-      for (unsigned int k = 0; k < 4; factorial *= ++k)
-        if (t > 1.)
-          C[k + 2] = (1. / factorial - C[k]) / (t * t);
-        else
-          {
-            double term = 1. / factorial;
-            for (unsigned int n = k + 1; n < k + 20; n += 2)
-              {
-                term /= n * (n + 1.);
-                C[k + 2] += term;
-                term *= -t * t;
-              }
-          }
-      return C;
-    }
-  } // namespace
 
 
 

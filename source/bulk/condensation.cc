@@ -167,6 +167,61 @@ namespace Debond
       int        n, n_below; ///< columns that are not condensed, rows below
       Block      diagonal, below;
     };
+
+
+
+    // Columns of a large triangle that are solved for at a time: small enough
+    // for the cache, large enough for several threads to share the rest.
+    constexpr int panel_width = 256;
+
+    // x <- L^-1 x for a large triangle L, panel by panel, in threads. A
+    // triangular solve is a chain in which each unknown waits for those before.
+    // But only the triangle on the diagonal of a panel is one; the rows below
+    // take their part of the panel's solution each by itself, in threads. As
+    // every row is written by one thread, sums do not depend on how many there
+    // are.
+    void
+    solve_large_lower(const Eigen::MatrixXd &L, Eigen::VectorXd &x)
+    {
+      const int n = L.rows();
+      for (int first = 0; first < n; first += panel_width)
+        {
+          const int width = std::min(panel_width, n - first);
+          const int next  = first + width;
+          solve_lower(L.block(first, first, width, width), "N", &x[first]);
+          for_each_chunk(n - next,
+                         [&](unsigned int, const int begin, const int end) {
+                           x.segment(next + begin, end - begin).noalias() -=
+                             L.block(next + begin, first, end - begin, width) *
+                             x.segment(first, width);
+                         });
+        }
+    }
+
+
+
+    // x <- L^-T x, from the last panel to the first. Columns of L are rows of
+    // L^T: here each chunk of the panel's unknowns takes what those below
+    // contribute before the triangle is solved for.
+    void
+    solve_large_upper(const Eigen::MatrixXd &L, Eigen::VectorXd &x)
+    {
+      const int n = L.rows();
+      for (int first = (n - 1) / panel_width * panel_width; first >= 0;
+           first -= panel_width)
+        {
+          const int width = std::min(panel_width, n - first);
+          const int next  = first + width;
+          for_each_chunk(width,
+                         [&](unsigned int, const int begin, const int end) {
+                           x.segment(first + begin, end - begin).noalias() -=
+                             L.block(next, first + begin, n - next, end - begin)
+                               .transpose() *
+                             x.tail(n - next);
+                         });
+          solve_lower(L.block(first, first, width, width), "T", &x[first]);
+        }
+    }
   } // namespace
 
 
@@ -285,64 +340,6 @@ namespace Debond
     S.triangularView<Eigen::StrictlyUpper>() = S.transpose();
     return S;
   }
-
-
-
-  namespace
-  {
-    // Columns of a large triangle that are solved for at a time: small enough
-    // for the cache, large enough for several threads to share the rest.
-    constexpr int panel_width = 256;
-
-    // x <- L^-1 x for a large triangle L, panel by panel, in threads. A
-    // triangular solve is a chain in which each unknown waits for those before.
-    // But only the triangle on the diagonal of a panel is one; the rows below
-    // take their part of the panel's solution each by itself, in threads. As
-    // every row is written by one thread, sums do not depend on how many there
-    // are.
-    void
-    solve_large_lower(const Eigen::MatrixXd &L, Eigen::VectorXd &x)
-    {
-      const int n = L.rows();
-      for (int first = 0; first < n; first += panel_width)
-        {
-          const int width = std::min(panel_width, n - first);
-          const int next  = first + width;
-          solve_lower(L.block(first, first, width, width), "N", &x[first]);
-          for_each_chunk(n - next,
-                         [&](unsigned int, const int begin, const int end) {
-                           x.segment(next + begin, end - begin).noalias() -=
-                             L.block(next + begin, first, end - begin, width) *
-                             x.segment(first, width);
-                         });
-        }
-    }
-
-
-
-    // x <- L^-T x, from the last panel to the first. Columns of L are rows of
-    // L^T: here each chunk of the panel's unknowns takes what those below
-    // contribute before the triangle is solved for.
-    void
-    solve_large_upper(const Eigen::MatrixXd &L, Eigen::VectorXd &x)
-    {
-      const int n = L.rows();
-      for (int first = (n - 1) / panel_width * panel_width; first >= 0;
-           first -= panel_width)
-        {
-          const int width = std::min(panel_width, n - first);
-          const int next  = first + width;
-          for_each_chunk(width,
-                         [&](unsigned int, const int begin, const int end) {
-                           x.segment(first + begin, end - begin).noalias() -=
-                             L.block(next, first + begin, n - next, end - begin)
-                               .transpose() *
-                             x.tail(n - next);
-                         });
-          solve_lower(L.block(first, first, width, width), "T", &x[first]);
-        }
-    }
-  } // namespace
 
 
 

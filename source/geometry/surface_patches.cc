@@ -64,6 +64,14 @@ namespace Debond
         places.push_back(X);
       return number;
     }
+
+
+
+    /** First and last corner of a side of a face. */
+    constexpr unsigned int ends_of_side[4][2] = {{0, 2},
+                                                 {1, 3},
+                                                 {0, 1},
+                                                 {2, 3}};
   } // namespace
 
 
@@ -151,17 +159,6 @@ namespace Debond
                        place = side < 2 ? element % n : element / n;
     return place == (side % 2 == 0 ? 0 : knot_vectors[side / 2].n_spans() - 1);
   }
-
-
-
-  namespace
-  {
-    /** First and last corner of a side of a face. */
-    constexpr unsigned int ends_of_side[4][2] = {{0, 2},
-                                                 {1, 3},
-                                                 {0, 1},
-                                                 {2, 3}};
-  } // namespace
 
 
 

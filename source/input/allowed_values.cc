@@ -49,6 +49,57 @@ namespace Debond
       result.description = words + ", or " + values.description;
       return result;
     }
+
+
+
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+
+
+    bool
+    consists_of(const std::string &text, const std::string &letters)
+    {
+      return text.find_first_not_of(letters) == std::string::npos;
+    }
+
+
+
+    /** What may be wrong with something that is no number; nothing of one. */
+    std::string
+    why_no_number(const std::string &text)
+    {
+      if (read_number(text))
+        return "";
+      const std::vector<std::string> items = split_list(text);
+      if (items.empty())
+        return "a value is missing";
+      if (items.size() == 2 && read_number(items[0]) &&
+          consists_of(items[1], "0123456789"))
+        return "decimals are written with a point, and nothing stands between "
+               "thousands";
+      const std::string beginning =
+        text.substr(0, text.find_first_not_of("0123456789+-."));
+      if (read_number(beginning) && !consists_of(text, "0123456789+-.eE"))
+        return "give the number alone, without unit or formula";
+      return "'" + shortened(text) + "' cannot be read as a number";
+    }
+
+
+
+    /** One number in [@p lower, @p upper], in words @p range. */
+    AllowedValues
+    number_in(const double       lower,
+              const double       upper,
+              const std::string &range,
+              const std::string &unit)
+    {
+      return {[=](const std::string &text) {
+                const auto x = read_number(text);
+                return x && *x >= lower && *x <= upper;
+              },
+              "a number" + range + (unit.empty() ? "" : " [" + unit + "]"),
+              why_no_number};
+    }
   } // namespace
 
 
@@ -171,60 +222,6 @@ namespace Debond
                              "in it behind '" + before + "'") +
            ", perhaps a typographic minus, quote or blank";
   }
-
-
-
-  namespace
-  {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-
-
-
-    bool
-    consists_of(const std::string &text, const std::string &letters)
-    {
-      return text.find_first_not_of(letters) == std::string::npos;
-    }
-
-
-
-    /** What may be wrong with something that is no number; nothing of one. */
-    std::string
-    why_no_number(const std::string &text)
-    {
-      if (read_number(text))
-        return "";
-      const std::vector<std::string> items = split_list(text);
-      if (items.empty())
-        return "a value is missing";
-      if (items.size() == 2 && read_number(items[0]) &&
-          consists_of(items[1], "0123456789"))
-        return "decimals are written with a point, and nothing stands between "
-               "thousands";
-      const std::string beginning =
-        text.substr(0, text.find_first_not_of("0123456789+-."));
-      if (read_number(beginning) && !consists_of(text, "0123456789+-.eE"))
-        return "give the number alone, without unit or formula";
-      return "'" + shortened(text) + "' cannot be read as a number";
-    }
-
-
-
-    /** One number in [@p lower, @p upper], in words @p range. */
-    AllowedValues
-    number_in(const double       lower,
-              const double       upper,
-              const std::string &range,
-              const std::string &unit)
-    {
-      return {[=](const std::string &text) {
-                const auto x = read_number(text);
-                return x && *x >= lower && *x <= upper;
-              },
-              "a number" + range + (unit.empty() ? "" : " [" + unit + "]"),
-              why_no_number};
-    }
-  } // namespace
 
 
 

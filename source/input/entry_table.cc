@@ -10,7 +10,31 @@ namespace Debond
   namespace
   {
     const std::string expert = "Expert / "; // before names
-  }
+
+
+
+    /** Number of letters to insert, delete or change to make one text of the
+     *  other, capitals ignored. */
+    unsigned int
+    edit_distance(const std::string &a, const std::string &b)
+    {
+      const boost::is_iequal    same(std::locale::classic());
+      std::vector<unsigned int> row(b.size() + 1);
+      std::iota(row.begin(), row.end(), 0);
+      for (const char letter : a)
+        {
+          unsigned int diagonal = row[0]++;
+          for (std::size_t j = 0; j < b.size(); ++j)
+            {
+              const unsigned int changed =
+                diagonal + (same(letter, b[j]) ? 0 : 1);
+              diagonal   = row[j + 1];
+              row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+            }
+        }
+      return row.back();
+    }
+  } // namespace
 
 
 
@@ -90,33 +114,6 @@ namespace Debond
     for (const auto &set_member : row.members)
       set_member(entry.value);
   }
-
-
-
-  namespace
-  {
-    /** Number of letters to insert, delete or change to make one text of the
-     *  other, capitals ignored. */
-    unsigned int
-    edit_distance(const std::string &a, const std::string &b)
-    {
-      const boost::is_iequal    same(std::locale::classic());
-      std::vector<unsigned int> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (const char letter : a)
-        {
-          unsigned int diagonal = row[0]++;
-          for (std::size_t j = 0; j < b.size(); ++j)
-            {
-              const unsigned int changed =
-                diagonal + (same(letter, b[j]) ? 0 : 1);
-              diagonal   = row[j + 1];
-              row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-            }
-        }
-      return row.back();
-    }
-  } // namespace
 
 
 

@@ -123,12 +123,9 @@ namespace Debond
                " x " + std::to_string(image.n[2]) + " voxels");
       return image;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** They have no modulus: what was not measured must be given a value. */
     void
     refuse_no_numbers(const StoredVoxels &image, const FileRefusal &refuse)

@@ -350,6 +350,42 @@ namespace Debond
       file.read({has_mm ? "x_mm" : "x", has_mm ? "y_mm" : "y", "phi_0"});
       return values_of_points(file, by_element, surface, centres, size);
     }
+
+
+
+    /** Random numbers that are the same everywhere: the C++ standard fixes the
+     *  generator, but not its distributions. */
+    class PortableRandom
+    {
+    public:
+      explicit PortableRandom(const std::uint64_t seed)
+        : generator(seed)
+      {}
+
+      /** Evenly distributed in (0, 1). */
+      double
+      uniform()
+      {
+        // the upper 53 bits, in the middle between two of their steps
+        return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53;
+      }
+
+      /** A whole number in [0, @p n), all equally likely. */
+      std::uint64_t
+      index(const std::uint64_t n)
+      {
+        // numbers above the last whole multiple of n would favour small ones
+        const std::uint64_t limit = generator.max() - generator.max() % n;
+        std::uint64_t       draw;
+        do
+          draw = generator();
+        while (draw >= limit);
+        return draw % n;
+      }
+
+    private:
+      std::mt19937_64 generator;
+    };
   } // namespace
 
 
@@ -386,45 +422,6 @@ namespace Debond
                      along,
                      200);
   }
-
-
-
-  namespace
-  {
-    /** Random numbers that are the same everywhere: the C++ standard fixes the
-     *  generator, but not its distributions. */
-    class PortableRandom
-    {
-    public:
-      explicit PortableRandom(const std::uint64_t seed)
-        : generator(seed)
-      {}
-
-      /** Evenly distributed in (0, 1). */
-      double
-      uniform()
-      {
-        // the upper 53 bits, in the middle between two of their steps
-        return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53;
-      }
-
-      /** A whole number in [0, @p n), all equally likely. */
-      std::uint64_t
-      index(const std::uint64_t n)
-      {
-        // numbers above the last whole multiple of n would favour small ones
-        const std::uint64_t limit = generator.max() - generator.max() % n;
-        std::uint64_t       draw;
-        do
-          draw = generator();
-        while (draw >= limit);
-        return draw % n;
-      }
-
-    private:
-      std::mt19937_64 generator;
-    };
-  } // namespace
 
 
 

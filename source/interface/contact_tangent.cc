@@ -79,6 +79,29 @@ namespace Debond
       result.topRows<3>()            = forces.reshaped(3, 3);
       return result;
     }
+
+
+
+    /** Adds rows^T forces columns, @p forces on the first vectors of w by some
+     *  of w. One product for all columns, as such small ones cost calls. */
+    template <int n>
+    void
+    add_block(const PointColumns         &rows,
+              const Matrix<double, 9, n> &forces,
+              const PointColumns         &columns,
+              Eigen::MatrixXd            &matrix)
+    {
+      // rows^T (forces columns), the small product first: 9 x w times w x n
+      constexpr int max = PointColumns::max_unknowns;
+      const Matrix<double, 9, Eigen::Dynamic, 0, 9, max> changes =
+        forces * columns.dw.topRows<n>().leftCols(columns.n);
+      Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max, max> block(
+        rows.n, columns.n);
+      block.noalias() = rows.dw.topLeftCorner(9, rows.n).transpose() * changes;
+      for (unsigned int j = 0; j < columns.n; ++j)
+        for (unsigned int i = 0; i < rows.n; ++i)
+          matrix(rows.number[i], columns.number[j]) += block(i, j);
+    }
   } // namespace
 
 
@@ -143,32 +166,6 @@ namespace Debond
                     });
     add_in_unknowns(without_padding(sums), configuration, 1., result);
   }
-
-
-
-  namespace
-  {
-    /** Adds rows^T forces columns, @p forces on the first vectors of w by some
-     *  of w. One product for all columns, as such small ones cost calls. */
-    template <int n>
-    void
-    add_block(const PointColumns         &rows,
-              const Matrix<double, 9, n> &forces,
-              const PointColumns         &columns,
-              Eigen::MatrixXd            &matrix)
-    {
-      // rows^T (forces columns), the small product first: 9 x w times w x n
-      constexpr int max = PointColumns::max_unknowns;
-      const Matrix<double, 9, Eigen::Dynamic, 0, 9, max> changes =
-        forces * columns.dw.topRows<n>().leftCols(columns.n);
-      Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max, max> block(
-        rows.n, columns.n);
-      block.noalias() = rows.dw.topLeftCorner(9, rows.n).transpose() * changes;
-      for (unsigned int j = 0; j < columns.n; ++j)
-        for (unsigned int i = 0; i < rows.n; ++i)
-          matrix(rows.number[i], columns.number[j]) += block(i, j);
-    }
-  } // namespace
 
 
 

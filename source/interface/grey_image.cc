@@ -35,58 +35,9 @@ namespace Debond
             size;
       return result;
     }
-  } // namespace
 
 
 
-  // The first row of a picture is its top, v = 1. Without interpolation: an
-  // edge between bonded and not is as sharp as it was drawn.
-  double
-  GreyImage::at(const double u, const double v) const
-  {
-    const auto pixel = [](const double t, const unsigned int n) {
-      return static_cast<unsigned int>(std::clamp(t * n, 0., n - 1.));
-    };
-    return levels[static_cast<std::size_t>(pixel(1. - v, height)) * width +
-                  pixel(u, width)];
-  }
-
-
-
-  GreyImage
-  GreyImage::threshold_at(const double threshold) const
-  {
-    GreyImage result = *this;
-    // as float, so that a threshold that is a grey level is not exceeded by it
-    for (float &level : result.levels)
-      level = level > static_cast<float>(threshold) ? 1.f : 0.f;
-    return result;
-  }
-
-
-
-  GreyImage
-  GreyImage::reduced_to(const unsigned int side) const
-  {
-    const unsigned int n = (std::max(width, height) + side - 1) / side;
-    if (n <= 1)
-      return *this;
-    // blocks of equal size in the picture, not in pixels
-    using Levels =
-      Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    GreyImage result{(width + n - 1) / n, (height + n - 1) / n, {}};
-    result.levels.resize(std::size_t(result.width) * result.height);
-    const Levels rows = means(height, result.height) *
-                        Eigen::Map<const Levels>(levels.data(), height, width);
-    Eigen::Map<Levels>(result.levels.data(), result.height, result.width) =
-      rows * means(width, result.width).transpose();
-    return result;
-  }
-
-
-
-  namespace
-  {
     using boost::endian::load_big_u32;
 
     // What a picture of 400 MB has in 4 bytes for each pixel: a damaged header
@@ -262,6 +213,52 @@ namespace Debond
 
 
   } // namespace
+
+
+
+  // The first row of a picture is its top, v = 1. Without interpolation: an
+  // edge between bonded and not is as sharp as it was drawn.
+  double
+  GreyImage::at(const double u, const double v) const
+  {
+    const auto pixel = [](const double t, const unsigned int n) {
+      return static_cast<unsigned int>(std::clamp(t * n, 0., n - 1.));
+    };
+    return levels[static_cast<std::size_t>(pixel(1. - v, height)) * width +
+                  pixel(u, width)];
+  }
+
+
+
+  GreyImage
+  GreyImage::threshold_at(const double threshold) const
+  {
+    GreyImage result = *this;
+    // as float, so that a threshold that is a grey level is not exceeded by it
+    for (float &level : result.levels)
+      level = level > static_cast<float>(threshold) ? 1.f : 0.f;
+    return result;
+  }
+
+
+
+  GreyImage
+  GreyImage::reduced_to(const unsigned int side) const
+  {
+    const unsigned int n = (std::max(width, height) + side - 1) / side;
+    if (n <= 1)
+      return *this;
+    // blocks of equal size in the picture, not in pixels
+    using Levels =
+      Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    GreyImage result{(width + n - 1) / n, (height + n - 1) / n, {}};
+    result.levels.resize(std::size_t(result.width) * result.height);
+    const Levels rows = means(height, result.height) *
+                        Eigen::Map<const Levels>(levels.data(), height, width);
+    Eigen::Map<Levels>(result.levels.data(), result.height, result.width) =
+      rows * means(width, result.width).transpose();
+    return result;
+  }
 
 
 

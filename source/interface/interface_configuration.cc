@@ -38,6 +38,45 @@ namespace Debond
         x = configuration.chuck->velocity(component, x);
       return result;
     }
+
+
+
+    // The control points that belong to the marked elements.
+    std::vector<bool>
+    control_points_of(const NurbsSurface      &surface,
+                      const std::vector<bool> &elements)
+    {
+      std::vector<bool>  result(surface.n_control_points(), false);
+      const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
+      for (unsigned int element = 0; element < elements.size(); ++element)
+        for (unsigned int a = 0; elements[element] && a < n; ++a)
+          result[surface.element_control_points(element)[a]] = true;
+      return result;
+    }
+
+
+
+    // Marks what lies between marked elements of a row or column: outlines of
+    // implants are convex, but samples may miss cells that grading made small.
+    void
+    fill_gaps(std::vector<bool> &marked, const std::array<unsigned int, 2> &n)
+    {
+      const std::array<unsigned int, 2> stride{{1, n[0]}};
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int line = 0; line < n[1 - d]; ++line)
+          {
+            const auto element = [&](const unsigned int i) {
+              return i * stride[d] + line * stride[1 - d];
+            };
+            unsigned int first = 0, end = n[d];
+            while (first < end && !marked[element(first)])
+              ++first;
+            while (end > first && !marked[element(end - 1)])
+              --end;
+            for (unsigned int i = first; i < end; ++i)
+              marked[element(i)] = true;
+          }
+    }
   } // namespace
 
 
@@ -90,48 +129,6 @@ namespace Debond
                    .cwiseProduct(velocities(configuration, component))
                    .sum();
   }
-
-
-
-  namespace
-  {
-    // The control points that belong to the marked elements.
-    std::vector<bool>
-    control_points_of(const NurbsSurface      &surface,
-                      const std::vector<bool> &elements)
-    {
-      std::vector<bool>  result(surface.n_control_points(), false);
-      const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
-      for (unsigned int element = 0; element < elements.size(); ++element)
-        for (unsigned int a = 0; elements[element] && a < n; ++a)
-          result[surface.element_control_points(element)[a]] = true;
-      return result;
-    }
-
-
-
-    // Marks what lies between marked elements of a row or column: outlines of
-    // implants are convex, but samples may miss cells that grading made small.
-    void
-    fill_gaps(std::vector<bool> &marked, const std::array<unsigned int, 2> &n)
-    {
-      const std::array<unsigned int, 2> stride{{1, n[0]}};
-      for (unsigned int d = 0; d < 2; ++d)
-        for (unsigned int line = 0; line < n[1 - d]; ++line)
-          {
-            const auto element = [&](const unsigned int i) {
-              return i * stride[d] + line * stride[1 - d];
-            };
-            unsigned int first = 0, end = n[d];
-            while (first < end && !marked[element(first)])
-              ++first;
-            while (end > first && !marked[element(end - 1)])
-              --end;
-            for (unsigned int i = first; i < end; ++i)
-              marked[element(i)] = true;
-          }
-    }
-  } // namespace
 
 
 

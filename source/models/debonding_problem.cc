@@ -46,41 +46,6 @@ namespace Debond
 
 
 
-  } // namespace
-
-
-
-  // A run that begins anew leaves nothing of an earlier one that would be taken
-  // for its own, but does not destroy a checkpoint either. Only the first rank
-  // finds that the directory is locked or cannot be written.
-  ResultDirectory
-  open_directory(const Scene &scene, const bool resumes)
-  {
-    std::optional<ResultDirectory> directory;
-    Ranks::in_agreement([&] {
-      if (resumes)
-        {
-          directory.emplace(scene.output.directory);
-          return;
-        }
-      directory.emplace(scene.output, scene.completed_parameters);
-      if (scene.output.overwrite_other_results)
-        return;
-      refuse_checkpoint(*directory, directory->path());
-      if (std::filesystem::exists(directory->file("coarser")) &&
-          read_json(directory->file("summary.json"))["converged"] != true)
-        refuse_checkpoint(*directory, directory->file("coarser"));
-    });
-    return *directory;
-  }
-
-
-
-  namespace
-  {
-
-
-
     /** At the end of an archive: another layout does not get there. */
     constexpr unsigned int end_of_state = 0x0deb03d;
 
@@ -377,6 +342,32 @@ namespace Debond
       }
     };
   } // namespace
+
+
+
+  // A run that begins anew leaves nothing of an earlier one that would be taken
+  // for its own, but does not destroy a checkpoint either. Only the first rank
+  // finds that the directory is locked or cannot be written.
+  ResultDirectory
+  open_directory(const Scene &scene, const bool resumes)
+  {
+    std::optional<ResultDirectory> directory;
+    Ranks::in_agreement([&] {
+      if (resumes)
+        {
+          directory.emplace(scene.output.directory);
+          return;
+        }
+      directory.emplace(scene.output, scene.completed_parameters);
+      if (scene.output.overwrite_other_results)
+        return;
+      refuse_checkpoint(*directory, directory->path());
+      if (std::filesystem::exists(directory->file("coarser")) &&
+          read_json(directory->file("summary.json"))["converged"] != true)
+        refuse_checkpoint(*directory, directory->file("coarser"));
+    });
+    return *directory;
+  }
 
 
 

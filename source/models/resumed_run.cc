@@ -107,12 +107,9 @@ namespace Debond
                            "' names another directory, but a run goes on in "
                            "the directory of its results");
     }
-  } // namespace
 
 
 
-  namespace
-  {
     Scene
     scene_of(const std::string              &parameters,
              const std::vector<std::string> &overrides,

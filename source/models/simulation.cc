@@ -117,6 +117,15 @@ namespace Debond
              "Mesh file and in the bone's, or leave a gap"});
       return warnings;
     }
+
+
+
+    Chuck::Vector6
+    in_degrees(Chuck::Vector6 position)
+    {
+      position.tail<3>() *= 180. / M_PI;
+      return position;
+    }
   } // namespace
 
 
@@ -531,18 +540,6 @@ namespace Debond
     all_warnings.push_back(warning);
     signals.warning(warning);
   }
-
-
-
-  namespace
-  {
-    Chuck::Vector6
-    in_degrees(Chuck::Vector6 position)
-    {
-      position.tail<3>() *= 180. / M_PI;
-      return position;
-    }
-  } // namespace
 
 
 

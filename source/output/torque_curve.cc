@@ -20,6 +20,43 @@ namespace Debond
       });
       return values;
     }
+
+
+
+    /** The row at the part @p s of the step between two, linear. */
+    TorqueRow
+    row_on_chord(TorqueRow row, const TorqueRow &end, const double s)
+    {
+      const std::vector<double> ends = values_of(end);
+      unsigned int              i    = 0;
+      row.for_each_column([&](const std::string &, auto &value) {
+        value += s * (ends[i++] - value);
+      });
+      return row;
+    }
+
+
+
+    /** The same on Hermite's cubic. */
+    TorqueRow
+    row_between(const TorqueRow &begin, const TorqueRow &end, const double s)
+    {
+      TorqueRow              row    = row_on_chord(begin, end, s);
+      const double           h      = end.time - begin.time;
+      const TorqueRow::Curve start  = begin.curve(),
+                             change = end.curve() - start,
+                             values =
+                               start + s * change +
+                               s * (1. - s) *
+                                 ((1. - s) * (h * end.rates_at_begin - change) -
+                                  s * (h * end.rates_at_end - change));
+      row.torque_Nmm     = values[0];
+      row.chuck_reaction = values.segment<6>(1);
+      row.chuck_position = values.tail<6>();
+      row.angle_deg      = row.chuck_position[5];
+      row.force_N        = 0. - row.chuck_reaction[2];
+      return row;
+    }
   } // namespace
 
 
@@ -56,46 +93,6 @@ namespace Debond
       }
     return table;
   }
-
-
-
-  namespace
-  {
-    /** The row at the part @p s of the step between two, linear. */
-    TorqueRow
-    row_on_chord(TorqueRow row, const TorqueRow &end, const double s)
-    {
-      const std::vector<double> ends = values_of(end);
-      unsigned int              i    = 0;
-      row.for_each_column([&](const std::string &, auto &value) {
-        value += s * (ends[i++] - value);
-      });
-      return row;
-    }
-
-
-
-    /** The same on Hermite's cubic. */
-    TorqueRow
-    row_between(const TorqueRow &begin, const TorqueRow &end, const double s)
-    {
-      TorqueRow              row    = row_on_chord(begin, end, s);
-      const double           h      = end.time - begin.time;
-      const TorqueRow::Curve start  = begin.curve(),
-                             change = end.curve() - start,
-                             values =
-                               start + s * change +
-                               s * (1. - s) *
-                                 ((1. - s) * (h * end.rates_at_begin - change) -
-                                  s * (h * end.rates_at_end - change));
-      row.torque_Nmm     = values[0];
-      row.chuck_reaction = values.segment<6>(1);
-      row.chuck_position = values.tail<6>();
-      row.angle_deg      = row.chuck_position[5];
-      row.force_N        = 0. - row.chuck_reaction[2];
-      return row;
-    }
-  } // namespace
 
 
 

@@ -121,6 +121,10 @@ namespace Debond
       result.note_choices(scene.chosen);
       return result;
     }
+
+
+
+    const std::string choices_begin = "# chosen by Accuracy: ";
   } // namespace
 
 
@@ -224,13 +228,6 @@ namespace Debond
           entry.subsections[0] != "Load steps")
         changes[entry.full_name()] = entry.value;
     return changes.empty() ? scene : with_choices(scene, changes);
-  }
-
-
-
-  namespace
-  {
-    const std::string choices_begin = "# chosen by Accuracy: ";
   }
 
 

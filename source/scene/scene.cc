@@ -78,6 +78,49 @@ namespace Debond
       else if (why && !is_fit)
         throw *why;
     }
+
+
+
+    void
+    take_entries(Scene &scene, const std::vector<SceneEntry> &entries)
+    {
+      scene.completed_parameters = scene_text(entries) + identities(scene);
+      scene.values.clear();
+      for (const SceneEntry &entry : entries)
+        scene.values.push_back(entry.value);
+    }
+
+
+
+    /** What is solved, in lines. Files are named without their directories,
+     *  which may be others on another machine: their content counts. */
+    std::vector<std::string>
+    lines_to_compare(const Scene &scene)
+    {
+      std::vector<std::string> lines;
+      for (const SceneEntry &entry : scene.completed_entries())
+        lines.push_back(entry.full_name() + " = '" + entry.value + "'");
+      Classic<std::istringstream> contents(identities(scene));
+      for (std::string line; std::getline(contents, line);)
+        {
+          const std::string of_file = line.substr(2); // see identity_of()
+          const std::string file    = of_file.substr(0, of_file.rfind(": "));
+          lines.push_back("the file " + of_file);
+          for (std::string &each : lines)
+            boost::replace_all(each,
+                               file,
+                               std::filesystem::path(file).filename().string());
+        }
+      // a program may give motions that no entry tells of
+      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+        {
+          lines.push_back(std::string("Chuck / ") + ChuckParameters::names[k] +
+                          " over time:");
+          for (const double value : scene.sampled_values(k))
+            lines.back() += " " + to_text(value, 17);
+        }
+      return lines;
+    }
   } // namespace
 
 
@@ -126,20 +169,6 @@ namespace Debond
       result[i].value = values[i];
     return result;
   }
-
-
-
-  namespace
-  {
-    void
-    take_entries(Scene &scene, const std::vector<SceneEntry> &entries)
-    {
-      scene.completed_parameters = scene_text(entries) + identities(scene);
-      scene.values.clear();
-      for (const SceneEntry &entry : entries)
-        scene.values.push_back(entry.value);
-    }
-  } // namespace
 
 
 
@@ -246,41 +275,6 @@ namespace Debond
       body->take_rim(implant);
     bone.read_modulus(implant.characteristic_radius());
   }
-
-
-
-  namespace
-  {
-    /** What is solved, in lines. Files are named without their directories,
-     *  which may be others on another machine: their content counts. */
-    std::vector<std::string>
-    lines_to_compare(const Scene &scene)
-    {
-      std::vector<std::string> lines;
-      for (const SceneEntry &entry : scene.completed_entries())
-        lines.push_back(entry.full_name() + " = '" + entry.value + "'");
-      Classic<std::istringstream> contents(identities(scene));
-      for (std::string line; std::getline(contents, line);)
-        {
-          const std::string of_file = line.substr(2); // see identity_of()
-          const std::string file    = of_file.substr(0, of_file.rfind(": "));
-          lines.push_back("the file " + of_file);
-          for (std::string &each : lines)
-            boost::replace_all(each,
-                               file,
-                               std::filesystem::path(file).filename().string());
-        }
-      // a program may give motions that no entry tells of
-      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-        {
-          lines.push_back(std::string("Chuck / ") + ChuckParameters::names[k] +
-                          " over time:");
-          for (const double value : scene.sampled_values(k))
-            lines.back() += " " + to_text(value, 17);
-        }
-      return lines;
-    }
-  } // namespace
 
 
 

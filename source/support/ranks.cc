@@ -71,6 +71,12 @@ namespace Debond
       const char *const text = std::getenv(name);
       return text == nullptr ? 0 : std::atoi(text);
     }
+
+
+
+    // Of a thread, since several may run a scene each. Those that help one
+    // with its loops ask nothing of this file.
+    thread_local Ranks::TeamPointer at_work;
   } // namespace
 
 
@@ -116,15 +122,6 @@ namespace Debond
       const MPI_Comm     communicator;
       const unsigned int number, own, n_here;
     };
-
-
-
-    namespace
-    {
-      // Of a thread, since several may run a scene each. Those that help one
-      // with its loops ask nothing of this file.
-      thread_local TeamPointer at_work;
-    } // namespace
 
 
 

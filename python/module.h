@@ -1,5 +1,4 @@
-#ifndef debond_python_module_h
-#define debond_python_module_h
+#pragma once
 
 // What the parts of the module _debond share.
 
@@ -96,4 +95,3 @@ bind_simulation(py::module_ &module);
 /** What studies need. */
 void
 bind_studies(py::module_ &module);
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_tests_cauchy_stress_h
-#define debond_tests_cauchy_stress_h
+#pragma once
 
 #include <debond/bulk/neo_hookean.h>
 
@@ -25,4 +24,3 @@ hooke_stress(const Debond::NeoHookean &material, const Eigen::Matrix3d &H)
   return material.G * (H + H.transpose()) +
          material.Lambda * H.trace() * Eigen::Matrix3d::Identity();
 }
-#endif

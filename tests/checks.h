@@ -1,5 +1,4 @@
-#ifndef debond_tests_checks_h
-#define debond_tests_checks_h
+#pragma once
 
 #include <cmath>
 #include <cstdlib>
@@ -51,4 +50,3 @@ random_number(const double from, const double to)
   static std::mt19937 generator;
   return from + (to - from) * (generator() / 4294967295.);
 }
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_tests_coin_scene_h
-#define debond_tests_coin_scene_h
+#pragma once
 
 #include <debond/input/scene_file.h>
 #include <debond/scene/scene.h>
@@ -26,4 +25,3 @@ coin_scene(const std::string              &text,
       entries.push_back(usual);
   return Scene::from_entries(with_overrides(entries, overrides), name);
 }
-#endif

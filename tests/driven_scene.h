@@ -1,5 +1,4 @@
-#ifndef debond_tests_driven_scene_h
-#define debond_tests_driven_scene_h
+#pragma once
 
 // What compiled tests of whole scenes share: scenes that are taken step by
 // step with the state at hand, and scenes that the program runs.
@@ -142,4 +141,3 @@ run_test(void (*test)())
       return 1;
     }
 }
-#endif

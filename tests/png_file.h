@@ -1,5 +1,4 @@
-#ifndef debond_tests_png_file_h
-#define debond_tests_png_file_h
+#pragma once
 
 #include <png.h>
 
@@ -58,4 +57,3 @@ png_file(const unsigned int               width,
   png_destroy_write_struct(&png, &info);
   return bytes;
 }
-#endif

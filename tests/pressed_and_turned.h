@@ -1,5 +1,4 @@
-#ifndef debond_tests_pressed_and_turned_h
-#define debond_tests_pressed_and_turned_h
+#pragma once
 
 #include <string>
 
@@ -32,4 +31,3 @@ bodies_of(const std::string &material)
 /** The motion of the main scene: it turns by 10 degrees until t = 2. */
 inline const std::string pressed_and_turned =
   pressed_then("Rotation z", "10 * max(t - 1, 0)");
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_tests_rectangle_of_h
-#define debond_tests_rectangle_of_h
+#pragma once
 
 #include <debond/geometry/nurbs_surface.h>
 
@@ -19,4 +18,3 @@ rectangle_of(const double       lx,
     KnotVector::graded(degree, n1, grading),
     KnotVector::graded(degree, n2, grading));
 }
-#endif

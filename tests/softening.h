@@ -1,5 +1,4 @@
-#ifndef debond_tests_softening_h
-#define debond_tests_softening_h
+#pragma once
 
 #include <debond/interface/contact_interface.h>
 
@@ -16,5 +15,3 @@ softens(const Debond::ContactInterface &interface, const double slope)
            -interface.friction(point).dmu * point.trial.pressure > slope;
   });
 }
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_tests_uniform_strain_h
-#define debond_tests_uniform_strain_h
+#pragma once
 
 #include <debond/bulk/bulk_space.h>
 #include <debond/bulk/enriched_cells.h>
@@ -21,4 +20,3 @@ forces_of_uniform_strain(const Debond::BulkSpace     &mesh,
   mesh.condense(force);
   return force;
 }
-#endif

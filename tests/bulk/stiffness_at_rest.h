@@ -1,5 +1,4 @@
-#ifndef debond_tests_stiffness_at_rest_h
-#define debond_tests_stiffness_at_rest_h
+#pragma once
 
 #include <debond/bulk/enriched_cells.h>
 #include <debond/bulk/neo_hookean.h>
@@ -34,4 +33,3 @@ stiffness_at_rest(const Debond::BulkSpace &mesh)
     }
   return T.transpose() * K * T;
 }
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_tests_vectors_h
-#define debond_tests_vectors_h
+#pragma once
 
 #include <Eigen/Core>
 
@@ -22,4 +21,3 @@ deviation(const Eigen::MatrixXd &ours, const Eigen::MatrixXd &reference)
 {
   return (ours - reference).norm() / reference.norm();
 }
-#endif

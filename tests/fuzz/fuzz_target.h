@@ -1,5 +1,4 @@
-#ifndef debond_fuzz_target_h
-#define debond_fuzz_target_h
+#pragma once
 
 #include <debond/support/input_error.h>
 #include <debond/support/runtime.h>
@@ -69,4 +68,3 @@ public:
 private:
   const int descriptor;
 };
-#endif

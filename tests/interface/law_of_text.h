@@ -1,5 +1,4 @@
-#ifndef debond_tests_law_of_text_h
-#define debond_tests_law_of_text_h
+#pragma once
 
 #include <debond/input/entry_table.h>
 #include <debond/interface/interface_law.h>
@@ -63,4 +62,3 @@ interface_law_of_text(const std::string                &entries,
   law->explicit_friction = is_explicit;
   return Debond::initialised(law);
 }
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_tests_interrupted_run_h
-#define debond_tests_interrupted_run_h
+#pragma once
 
 // What tests of interrupted runs share: files that are compared byte for byte.
 
@@ -57,4 +56,3 @@ same_files(const std::string &directory, const std::string &other)
       }
   return same;
 }
-#endif

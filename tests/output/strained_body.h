@@ -1,5 +1,4 @@
-#ifndef debond_tests_strained_body_h
-#define debond_tests_strained_body_h
+#pragma once
 
 // What tests of VTU files share: linear bodies under a uniform strain.
 
@@ -25,4 +24,3 @@ strained_body(Debond::BodyParameters parameters, const Debond::Side side)
   body->correct(v);
   return body;
 }
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_tests_vtu_file_h
-#define debond_tests_vtu_file_h
+#pragma once
 
 // What tests read of VTU files as deal.II writes them.
 
@@ -51,4 +50,3 @@ read_array(const std::string &vtu, const std::string &name)
                                 sizes[3]);
   return status == Z_OK ? values : std::vector<Number>();
 }
-#endif

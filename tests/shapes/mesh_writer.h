@@ -1,5 +1,4 @@
-#ifndef debond_tests_mesh_writer_h
-#define debond_tests_mesh_writer_h
+#pragma once
 
 // Writes a body that a scene makes as a file of Gmsh, for Shape = file.
 
@@ -203,4 +202,3 @@ write_coin(const std::string &filename,
     filename,
     order);
 }
-#endif

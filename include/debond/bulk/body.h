@@ -1,5 +1,4 @@
-#ifndef debond_bulk_body_h
-#define debond_bulk_body_h
+#pragma once
 
 #include <debond/bulk/condensing_bulk.h>
 #include <debond/bulk/whole_bulk.h>
@@ -284,4 +283,3 @@ namespace Debond
   std::unique_ptr<Body>
   make_body(const BodyParameters &parameters, Side side);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_bulk_bulk_h
-#define debond_bulk_bulk_h
+#pragma once
 
 #include <debond/bulk/bulk_space.h>
 #include <debond/bulk/enriched_cells.h>
@@ -115,4 +114,3 @@ namespace Debond
     return std::sqrt(1.5) * deviator.norm();
   }
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_bulk_bulk_solvers_h
-#define debond_bulk_bulk_solvers_h
+#pragma once
 
 #include <debond/bulk/condensing_bulk.h>
 #include <debond/bulk/whole_bulk.h>
@@ -34,4 +33,3 @@ namespace Debond
   std::unique_ptr<Bulk>
   make_bulk(const BulkSpace &mesh);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_bulk_bulk_space_h
-#define debond_bulk_bulk_space_h
+#pragma once
 
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/shapes/body_parameters.h>
@@ -356,4 +355,3 @@ namespace Debond
     Eigen::VectorXd        w;       ///< of each spline; empty: all 1
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_bulk_chuck_h
-#define debond_bulk_chuck_h
+#pragma once
 
 #include <debond/input/expression_parser.h>
 #include <debond/input/monotone_curve.h>
@@ -388,4 +387,3 @@ namespace Debond
     std::array<std::array<Eigen::Vector3d, 3>, 3> db; ///< db[k][l] = db_k/dq_l
   };
 } // namespace Debond
-#endif

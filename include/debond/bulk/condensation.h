@@ -1,5 +1,4 @@
-#ifndef debond_bulk_condensation_h
-#define debond_bulk_condensation_h
+#pragma once
 
 #include <Eigen/SparseCore>
 
@@ -71,4 +70,3 @@ namespace Debond
     Eigen::MatrixXd  L_cc;        ///< lower triangular
   };
 } // namespace Debond
-#endif

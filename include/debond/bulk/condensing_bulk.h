@@ -1,5 +1,4 @@
-#ifndef debond_bulk_condensing_bulk_h
-#define debond_bulk_condensing_bulk_h
+#pragma once
 
 #include <debond/bulk/bulk.h>
 
@@ -36,4 +35,3 @@ namespace Debond
     using Bulk::Bulk;
   };
 } // namespace Debond
-#endif

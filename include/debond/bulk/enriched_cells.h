@@ -1,5 +1,4 @@
-#ifndef debond_bulk_enriched_cells_h
-#define debond_bulk_enriched_cells_h
+#pragma once
 
 #include <debond/bulk/bulk_space.h>
 #include <debond/bulk/hyperelastic_material.h>
@@ -154,4 +153,3 @@ namespace Debond
     std::vector<double>       factors; ///< of those of a cell; empty: all 1
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_bulk_hyperelastic_material_h
-#define debond_bulk_hyperelastic_material_h
+#pragma once
 
 #include <Eigen/Core>
 
@@ -92,4 +91,3 @@ namespace Debond
     const std::tuple<InCell<8>, InCell<27>> in_cells;
   };
 } // namespace Debond
-#endif

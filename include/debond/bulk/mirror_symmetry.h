@@ -1,5 +1,4 @@
-#ifndef debond_bulk_mirror_symmetry_h
-#define debond_bulk_mirror_symmetry_h
+#pragma once
 
 #include <debond/bulk/enriched_cells.h>
 
@@ -73,4 +72,3 @@ namespace Debond
     unfold(const Eigen::VectorXd &y, Eigen::VectorXd &v) const;
   };
 } // namespace Debond
-#endif

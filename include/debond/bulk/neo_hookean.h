@@ -1,5 +1,4 @@
-#ifndef debond_bulk_neo_hookean_h
-#define debond_bulk_neo_hookean_h
+#pragma once
 
 #include <debond/bulk/hyperelastic_material.h>
 
@@ -111,4 +110,3 @@ namespace Debond
     }
   };
 } // namespace Debond
-#endif

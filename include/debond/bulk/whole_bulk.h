@@ -1,5 +1,4 @@
-#ifndef debond_bulk_whole_bulk_h
-#define debond_bulk_whole_bulk_h
+#pragma once
 
 #include <debond/bulk/bulk.h>
 
@@ -82,4 +81,3 @@ namespace Debond
     std::vector<unsigned int> unknowns; ///< degrees of freedom at nodes
   };
 } // namespace Debond
-#endif

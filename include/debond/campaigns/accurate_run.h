@@ -1,5 +1,4 @@
-#ifndef debond_campaigns_accurate_run_h
-#define debond_campaigns_accurate_run_h
+#pragma once
 
 #include <debond/scene/scene.h>
 
@@ -29,4 +28,3 @@ namespace Debond
   void
   print_choices(const Scene &scene, std::ostream &out);
 } // namespace Debond
-#endif

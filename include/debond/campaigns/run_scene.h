@@ -1,5 +1,4 @@
-#ifndef debond_campaigns_run_scene_h
-#define debond_campaigns_run_scene_h
+#pragma once
 
 #include <iosfwd>
 #include <memory>
@@ -48,4 +47,3 @@ namespace Debond
   void
   run_variant(Scene scene, const std::shared_ptr<BodyPair> &bodies, bool force);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_geometry_bernstein_h
-#define debond_geometry_bernstein_h
+#pragma once
 
 #include <Eigen/Core>
 
@@ -91,4 +90,3 @@ namespace Debond
     std::vector<Eigen::Matrix3d> extraction;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_geometry_nurbs_surface_h
-#define debond_geometry_nurbs_surface_h
+#pragma once
 
 #include <debond/geometry/bernstein.h>
 
@@ -362,4 +361,3 @@ namespace Debond
     std::vector<std::vector<unsigned int>> faces_at; ///< corners
   };
 } // namespace Debond
-#endif

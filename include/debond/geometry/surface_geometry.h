@@ -1,5 +1,4 @@
-#ifndef debond_geometry_surface_geometry_h
-#define debond_geometry_surface_geometry_h
+#pragma once
 
 #include <debond/geometry/nurbs_surface.h>
 
@@ -112,4 +111,3 @@ namespace Debond
     return S;
   }
 } // namespace Debond
-#endif

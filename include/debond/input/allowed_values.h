@@ -1,5 +1,4 @@
-#ifndef debond_input_allowed_values_h
-#define debond_input_allowed_values_h
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -119,4 +118,3 @@ namespace Debond
   std::string
   remark_on_special_character(const std::string &text);
 } // namespace Debond
-#endif

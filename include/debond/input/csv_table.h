@@ -1,5 +1,4 @@
-#ifndef debond_input_csv_table_h
-#define debond_input_csv_table_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -37,4 +36,3 @@ namespace Debond
   std::string
   csv_line(const std::vector<double> &numbers);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_input_entry_table_h
-#define debond_input_entry_table_h
+#pragma once
 
 #include <debond/input/allowed_values.h>
 #include <debond/input/scene_file.h>
@@ -192,4 +191,3 @@ namespace Debond
       documentation);
   }
 } // namespace Debond
-#endif

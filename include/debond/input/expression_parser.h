@@ -1,5 +1,4 @@
-#ifndef debond_input_expression_parser_h
-#define debond_input_expression_parser_h
+#pragma once
 
 #include <functional>
 #include <string>
@@ -40,4 +39,3 @@ namespace Debond
                      double              radius,
                      const TimeFunction &given = nullptr);
 } // namespace Debond
-#endif

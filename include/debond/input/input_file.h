@@ -1,5 +1,4 @@
-#ifndef debond_input_input_file_h
-#define debond_input_input_file_h
+#pragma once
 
 #include <functional>
 #include <string>
@@ -36,4 +35,3 @@ namespace Debond
   std::string
   utf8(const std::string &text);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_input_measured_table_h
-#define debond_input_measured_table_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -29,4 +28,3 @@ namespace Debond
                       const std::vector<std::string> &choice,
                       const std::string              &choice_entry);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_input_monotone_curve_h
-#define debond_input_monotone_curve_h
+#pragma once
 
 #include <vector>
 
@@ -44,4 +43,3 @@ namespace Debond
     std::vector<double> abscissae, values, slopes;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_input_scene_file_h
-#define debond_input_scene_file_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -61,4 +60,3 @@ namespace Debond
   SceneEntry
   read_override(const std::string &text);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_input_voxel_formats_h
-#define debond_input_voxel_formats_h
+#pragma once
 
 #include <debond/input/input_file.h>
 
@@ -38,4 +37,3 @@ namespace Debond
   StoredVoxels
   read_meta_image(const std::string &filename, const FileRefusal &refuse);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_input_voxel_image_h
-#define debond_input_voxel_image_h
+#pragma once
 
 #include <array>
 #include <memory>
@@ -51,4 +50,3 @@ namespace Debond
   std::shared_ptr<const VoxelImage>
   read_voxel_image(const std::string &filename, const std::string &entry);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_bilinear_bond_h
-#define debond_interface_bilinear_bond_h
+#pragma once
 
 #include <debond/interface/interface_law.h>
 
@@ -59,4 +58,3 @@ namespace Debond
     energy(double B, double &slope) const;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_bonding_parameters_h
-#define debond_interface_bonding_parameters_h
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -66,4 +65,3 @@ namespace Debond
   std::string
   name_of(BondingPatternKind pattern);
 } // namespace Debond
-#endif

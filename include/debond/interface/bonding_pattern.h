@@ -1,5 +1,4 @@
-#ifndef debond_interface_bonding_pattern_h
-#define debond_interface_bonding_pattern_h
+#pragma once
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bonding_parameters.h>
@@ -112,4 +111,3 @@ namespace Debond
                         const BodyParameters        &implant,
                         const dealii::Quadrature<1> &along);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_bonding_source_h
-#define debond_interface_bonding_source_h
+#pragma once
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bonding_parameters.h>
@@ -95,4 +94,3 @@ namespace Debond
                   const std::string &entry,
                   unsigned int       white = 0);
 } // namespace Debond
-#endif

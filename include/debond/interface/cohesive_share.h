@@ -1,5 +1,4 @@
-#ifndef debond_interface_cohesive_share_h
-#define debond_interface_cohesive_share_h
+#pragma once
 
 #include <debond/interface/contact_point_state.h>
 
@@ -60,4 +59,3 @@ namespace Debond
     }
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_contact_interface_h
-#define debond_interface_contact_interface_h
+#pragma once
 
 #include <debond/interface/bonding_pattern.h>
 #include <debond/interface/cohesive_share.h>
@@ -523,4 +522,3 @@ namespace Debond
     mutable bool tangent_is_gathered = false;
   };
 } // namespace Debond
-#endif

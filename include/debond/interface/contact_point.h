@@ -1,5 +1,4 @@
-#ifndef debond_interface_contact_point_h
-#define debond_interface_contact_point_h
+#pragma once
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/contact_point_state.h>
@@ -128,4 +127,3 @@ namespace Debond
     }
   };
 } // namespace Debond
-#endif

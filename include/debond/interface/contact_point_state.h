@@ -1,5 +1,4 @@
-#ifndef debond_interface_contact_point_state_h
-#define debond_interface_contact_point_state_h
+#pragma once
 
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/interface/interface_law.h>
@@ -161,4 +160,3 @@ namespace Debond
       Eigen::Matrix<double, 6, 1>::Zero();
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_friction_law_h
-#define debond_interface_friction_law_h
+#pragma once
 
 #include <debond/interface/law_choice.h>
 
@@ -244,4 +243,3 @@ namespace Debond
   FrictionLawPointer
   create_friction_law(const LawChoice<FrictionLaw> &choice);
 } // namespace Debond
-#endif

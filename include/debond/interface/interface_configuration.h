@@ -1,5 +1,4 @@
-#ifndef debond_interface_interface_configuration_h
-#define debond_interface_interface_configuration_h
+#pragma once
 
 #include <debond/interface/contact_point.h>
 #include <debond/shapes/side.h>
@@ -106,4 +105,3 @@ namespace Debond
                               Side                           slave);
   //@}
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_interface_law_h
-#define debond_interface_interface_law_h
+#pragma once
 
 #include <debond/interface/modified_coulomb.h>
 
@@ -245,4 +244,3 @@ namespace Debond
     }
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_interface_parameters_h
-#define debond_interface_interface_parameters_h
+#pragma once
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bonding_parameters.h>
@@ -99,4 +98,3 @@ namespace Debond
     declare_viscosity(EntryTable &table);
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_law_choice_h
-#define debond_interface_law_choice_h
+#pragma once
 
 #include <functional>
 #include <memory>
@@ -74,4 +73,3 @@ namespace Debond
     std::vector<LawPlugin<Law>> laws = all_laws<Law>();
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_modified_coulomb_h
-#define debond_interface_modified_coulomb_h
+#pragma once
 
 #include <debond/interface/friction_law.h>
 
@@ -67,4 +66,3 @@ namespace Debond
                    ModifiedCoulomb::Coefficients coefficients =
                      ModifiedCoulomb::Coefficients::two);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_point_motion_h
-#define debond_interface_point_motion_h
+#pragma once
 
 #include <debond/interface/contact_point.h>
 #include <debond/interface/interface_configuration.h>
@@ -160,4 +159,3 @@ namespace Debond
            Factors(Eigen::Map<const Factors>(of_master[b].factor.data())));
   }
 } // namespace Debond
-#endif

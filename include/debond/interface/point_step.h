@@ -1,5 +1,4 @@
-#ifndef debond_interface_point_step_h
-#define debond_interface_point_step_h
+#pragma once
 
 #include <debond/interface/contact_point_state.h>
 #include <debond/interface/towed_gap.h>
@@ -59,4 +58,3 @@ namespace Debond
     }
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_rigid_motion_h
-#define debond_interface_rigid_motion_h
+#pragma once
 
 #include <debond/interface/interface_configuration.h>
 
@@ -76,4 +75,3 @@ namespace Debond
     way(const Eigen::Vector3d &x, Side slave, const Normal &normal) const;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_slip_problem_h
-#define debond_interface_slip_problem_h
+#pragma once
 
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/point_step.h>
@@ -301,4 +300,3 @@ namespace Debond
     std::optional<SlipEquations::Derivative<2>> by_xi;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_interface_towed_gap_h
-#define debond_interface_towed_gap_h
+#pragma once
 
 #include <Eigen/Core>
 
@@ -66,4 +65,3 @@ namespace Debond
     Eigen::Matrix<double, 3, 7> derivative;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_models_closed_form_solution_h
-#define debond_models_closed_form_solution_h
+#pragma once
 
 #include <debond/models/closed_forms.h>
 #include <debond/output/torque_curve.h>
@@ -67,4 +66,3 @@ namespace Debond
   void
   describe(const ClosedFormSolution &solution, std::ostream &out);
 } // namespace Debond
-#endif

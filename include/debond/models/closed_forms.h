@@ -1,5 +1,4 @@
-#ifndef debond_models_closed_forms_h
-#define debond_models_closed_forms_h
+#pragma once
 
 #include <debond/interface/modified_coulomb.h>
 
@@ -284,4 +283,3 @@ namespace Debond
                 double                    adhesion_energy,
                 double                    friction_stress);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_models_debonding_problem_h
-#define debond_models_debonding_problem_h
+#pragma once
 
 #include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
@@ -48,4 +47,3 @@ namespace Debond
     std::vector<TorqueRow> rows;
   };
 } // namespace Debond
-#endif

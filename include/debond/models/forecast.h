@@ -1,5 +1,4 @@
-#ifndef debond_models_forecast_h
-#define debond_models_forecast_h
+#pragma once
 
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
@@ -51,4 +50,3 @@ namespace Debond
   void
   print_forecast(const Scene &scene, std::ostream &out);
 } // namespace Debond
-#endif

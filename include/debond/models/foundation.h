@@ -1,5 +1,4 @@
-#ifndef debond_models_foundation_h
-#define debond_models_foundation_h
+#pragma once
 
 #include <debond/scene/scene.h>
 
@@ -28,4 +27,3 @@ namespace Debond
   foundation_stiffness(const Scene               &scene,
                        std::shared_ptr<BodyPair> *bodies = nullptr);
 } // namespace Debond
-#endif

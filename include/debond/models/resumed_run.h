@@ -1,5 +1,4 @@
-#ifndef debond_models_resumed_run_h
-#define debond_models_resumed_run_h
+#pragma once
 
 #include <debond/output/checkpoint.h>
 #include <debond/scene/scene.h>
@@ -14,7 +13,7 @@ namespace Debond
   /** A run that was interrupted, or is extended to later times. */
   struct ResumedRun
   {
-    Scene      scene; ///< writes into the directory where the checkpoint is
+    Scene scene; ///< writes into the directory where the checkpoint is
     /** Without a state: the coarser run is not finished. */
     std::optional<Checkpoint> checkpoint;
     /** What a user has to know about the checkpoint. */
@@ -51,4 +50,3 @@ namespace Debond
   std::optional<Checkpoint>
   find_checkpoint(const Scene &scene);
 } // namespace Debond
-#endif

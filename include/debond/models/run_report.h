@@ -1,5 +1,4 @@
-#ifndef debond_models_run_report_h
-#define debond_models_run_report_h
+#pragma once
 
 #include <debond/output/console.h>
 #include <debond/output/interface_tables.h>
@@ -59,4 +58,3 @@ namespace Debond
     InterfaceTables                          tables;
   };
 } // namespace Debond
-#endif

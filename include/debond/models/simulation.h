@@ -1,5 +1,4 @@
-#ifndef debond_models_simulation_h
-#define debond_models_simulation_h
+#pragma once
 
 #include <debond/models/state_checks.h>
 #include <debond/output/torque_curve.h>
@@ -206,4 +205,3 @@ namespace Debond
     bool is_lost = false;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_models_state_checks_h
-#define debond_models_state_checks_h
+#pragma once
 
 #include <debond/interface/contact_interface.h>
 #include <debond/scene/scene.h>
@@ -110,4 +109,3 @@ namespace Debond
     std::set<std::string> violated; ///< since the last row
   };
 } // namespace Debond
-#endif

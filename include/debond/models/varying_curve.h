@@ -1,5 +1,4 @@
-#ifndef debond_models_varying_curve_h
-#define debond_models_varying_curve_h
+#pragma once
 
 #include <debond/output/torque_curve.h>
 #include <debond/scene/varying_scene.h>
@@ -78,4 +77,3 @@ namespace Debond
     std::shared_ptr<BodyPair> bodies, linear_bodies;
   };
 } // namespace Debond
-#endif

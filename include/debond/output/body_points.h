@@ -1,5 +1,4 @@
-#ifndef debond_output_body_points_h
-#define debond_output_body_points_h
+#pragma once
 
 #include <debond/bulk/bulk_space.h>
 
@@ -55,4 +54,3 @@ namespace Debond
                    const Chuck            &chuck,
                    const Eigen::Matrix3Xd &points);
 } // namespace Debond
-#endif

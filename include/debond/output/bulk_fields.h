@@ -1,5 +1,4 @@
-#ifndef debond_output_bulk_fields_h
-#define debond_output_bulk_fields_h
+#pragma once
 
 #include <debond/output/drawn_patches.h>
 
@@ -44,4 +43,3 @@ namespace Debond
     const bool draws_modulus;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_output_checkpoint_h
-#define debond_output_checkpoint_h
+#pragma once
 
 
 #include <array>
@@ -68,4 +67,3 @@ namespace Debond
     unsigned int               next = 0; ///< to be written
   };
 } // namespace Debond
-#endif

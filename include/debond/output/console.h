@@ -1,5 +1,4 @@
-#ifndef debond_output_console_h
-#define debond_output_console_h
+#pragma once
 
 #include <debond/output/result_files.h>
 #include <debond/output/torque_curve.h>
@@ -56,4 +55,3 @@ namespace Debond
     Progress                  progress;
   };
 } // namespace Debond
-#endif

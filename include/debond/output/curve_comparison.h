@@ -1,5 +1,4 @@
-#ifndef debond_output_curve_comparison_h
-#define debond_output_curve_comparison_h
+#pragma once
 
 #include <debond/scene/reference_data.h>
 
@@ -100,4 +99,3 @@ namespace Debond
   std::vector<std::string>
   doubts_of_reference(const Scene &scene);
 } // namespace Debond
-#endif

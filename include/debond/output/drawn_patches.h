@@ -1,5 +1,4 @@
-#ifndef debond_output_drawn_patches_h
-#define debond_output_drawn_patches_h
+#pragma once
 
 #include <debond/support/number_text.h>
 #include <debond/support/runtime.h>
@@ -144,4 +143,3 @@ namespace Debond
     return std::clamp((across + n_cells - 1) / n_cells, least, most);
   }
 } // namespace Debond
-#endif

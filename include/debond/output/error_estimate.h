@@ -1,5 +1,4 @@
-#ifndef debond_output_error_estimate_h
-#define debond_output_error_estimate_h
+#pragma once
 
 #include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
@@ -53,4 +52,3 @@ namespace Debond
             double                        share);
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_output_field_output_h
-#define debond_output_field_output_h
+#pragma once
 
 #include <debond/output/bulk_fields.h>
 
@@ -84,4 +83,3 @@ namespace Debond
   };
 
 } // namespace Debond
-#endif

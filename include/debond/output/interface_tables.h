@@ -1,5 +1,4 @@
-#ifndef debond_output_interface_tables_h
-#define debond_output_interface_tables_h
+#pragma once
 
 #include <debond/output/profile_output.h>
 #include <debond/output/torque_curve.h>
@@ -70,4 +69,3 @@ namespace Debond
     std::map<unsigned int, Snapshot> snapshots; ///< by the numbers of events
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_output_profile_output_h
-#define debond_output_profile_output_h
+#pragma once
 
 #include <debond/scene/reference_data.h>
 
@@ -54,4 +53,3 @@ namespace Debond
   nlohmann::ordered_json
   compare_profiles(const Profiles &profiles, const Profiles &reference);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_output_reference_comparison_h
-#define debond_output_reference_comparison_h
+#pragma once
 
 #include <debond/scene/reference_data.h>
 
@@ -38,4 +37,3 @@ namespace Debond
   compare_anew_if_changed(const OutputParameters &output,
                           const std::string      &directory);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_output_result_files_h
-#define debond_output_result_files_h
+#pragma once
 
 #include <debond/scene/scene.h>
 #include <debond/support/written_files.h>
@@ -94,4 +93,3 @@ namespace Debond
   double
   number_in(const nlohmann::ordered_json &summary, const std::string &name);
 } // namespace Debond
-#endif

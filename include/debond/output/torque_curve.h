@@ -1,5 +1,4 @@
-#ifndef debond_output_torque_curve_h
-#define debond_output_torque_curve_h
+#pragma once
 
 #include <debond/bulk/chuck.h>
 #include <debond/output/curve_comparison.h>
@@ -229,4 +228,3 @@ namespace Debond
   measure_torque_curve(const std::vector<TorqueRow> &rows,
                        const CurveSettings          &settings);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_scene_curve_axes_h
-#define debond_scene_curve_axes_h
+#pragma once
 
 #include <debond/bulk/chuck.h>
 
@@ -52,4 +51,3 @@ namespace Debond
     of_columns(const std::string &position, const std::string &load);
   };
 } // namespace Debond
-#endif

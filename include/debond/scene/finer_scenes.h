@@ -1,5 +1,4 @@
-#ifndef debond_scene_finer_scenes_h
-#define debond_scene_finer_scenes_h
+#pragma once
 
 #include <debond/scene/scene.h>
 
@@ -58,4 +57,3 @@ namespace Debond
   bool
   is_same_scene(const std::string &parameters, const std::string &earlier);
 } // namespace Debond
-#endif

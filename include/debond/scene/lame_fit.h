@@ -1,5 +1,4 @@
-#ifndef debond_scene_lame_fit_h
-#define debond_scene_lame_fit_h
+#pragma once
 
 #include <optional>
 
@@ -36,4 +35,3 @@ namespace Debond
   std::optional<LameFit>
   lame_fit(const Scene &scene);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_scene_reference_data_h
-#define debond_scene_reference_data_h
+#pragma once
 
 #include <debond/scene/curve_axes.h>
 
@@ -44,4 +43,3 @@ namespace Debond
   Profiles
   read_profiles(const std::string &filename);
 } // namespace Debond
-#endif

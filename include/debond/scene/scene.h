@@ -1,5 +1,4 @@
-#ifndef debond_scene_scene_h
-#define debond_scene_scene_h
+#pragma once
 
 #include <debond/input/scene_file.h>
 #include <debond/scene/curve_axes.h>
@@ -241,4 +240,3 @@ namespace Debond
   std::vector<Warning>
   unread_entries(const Scene &scene);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_scene_varying_scene_h
-#define debond_scene_varying_scene_h
+#pragma once
 
 #include <debond/input/entry_table.h>
 #include <debond/scene/scene.h>
@@ -39,4 +38,3 @@ namespace Debond
     EntryTable table;
   };
 } // namespace Debond
-#endif

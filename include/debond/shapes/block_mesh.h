@@ -1,5 +1,4 @@
-#ifndef debond_shapes_block_mesh_h
-#define debond_shapes_block_mesh_h
+#pragma once
 
 #include <debond/shapes/mesh_formats.h>
 
@@ -37,4 +36,3 @@ namespace Debond
               bool         to_first,
               double       grading);
 } // namespace Debond
-#endif

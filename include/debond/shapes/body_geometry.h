@@ -1,5 +1,4 @@
-#ifndef debond_shapes_body_geometry_h
-#define debond_shapes_body_geometry_h
+#pragma once
 
 #include <Eigen/Core>
 
@@ -139,4 +138,3 @@ namespace Debond
                      bool                  has_square,
                      const EntryCheck     &refuse);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_shapes_body_mesh_h
-#define debond_shapes_body_mesh_h
+#pragma once
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
@@ -67,4 +66,3 @@ namespace Debond
     return result;
   }
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_shapes_body_parameters_h
-#define debond_shapes_body_parameters_h
+#pragma once
 
 #include <debond/shapes/body_geometry.h>
 #include <debond/shapes/side.h>
@@ -251,4 +250,3 @@ namespace Debond
   NurbsSurface
   make_contact_surface(const BodyParameters &body, Side side = Side::implant);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_shapes_boundary_h
-#define debond_shapes_boundary_h
+#pragma once
 
 #include <deal.II/base/types.h>
 
@@ -20,4 +19,3 @@ namespace Debond
     constexpr Id axial    = 6; ///< moves along z only
   }                            // namespace Boundary
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_shapes_bowl_mesh_h
-#define debond_shapes_bowl_mesh_h
+#pragma once
 
 #include <debond/shapes/mesh_formats.h>
 
@@ -46,4 +45,3 @@ namespace Debond
   StoredMesh
   mesh_of_bowl(const Bowl &bowl);
 } // namespace Debond
-#endif

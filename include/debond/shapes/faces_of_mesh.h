@@ -1,5 +1,4 @@
-#ifndef debond_shapes_faces_of_mesh_h
-#define debond_shapes_faces_of_mesh_h
+#pragma once
 
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/shapes/body_mesh.h>
@@ -53,4 +52,3 @@ namespace Debond
                      Side            side,
                      FacesOfMesh     which = FacesOfMesh::contact);
 } // namespace Debond
-#endif

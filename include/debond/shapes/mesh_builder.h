@@ -1,5 +1,4 @@
-#ifndef debond_shapes_mesh_builder_h
-#define debond_shapes_mesh_builder_h
+#pragma once
 
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/boundary.h>
@@ -92,4 +91,3 @@ namespace Debond
   std::shared_ptr<const BodyMesh>
   read_mesh_file(const std::string &filename, const std::string &entry);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_shapes_mesh_formats_h
-#define debond_shapes_mesh_formats_h
+#pragma once
 
 #include <debond/input/input_file.h>
 
@@ -68,4 +67,3 @@ namespace Debond
   StoredMesh
   read_stored_mesh(const std::string &filename, const FileRefusal &refuse);
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_shapes_modulus_field_h
-#define debond_shapes_modulus_field_h
+#pragma once
 
 #include <debond/input/expression_parser.h>
 #include <debond/input/voxel_image.h>
@@ -68,4 +67,3 @@ namespace Debond
     const Expression                        modulus;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_shapes_revolved_mesh_h
-#define debond_shapes_revolved_mesh_h
+#pragma once
 
 #include <debond/shapes/mesh_formats.h>
 
@@ -42,4 +41,3 @@ namespace Debond
   StoredMesh
   mesh_of_revolution(const RevolvedBody &body);
 } // namespace Debond
-#endif

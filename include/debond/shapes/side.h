@@ -1,5 +1,4 @@
-#ifndef debond_shapes_side_h
-#define debond_shapes_side_h
+#pragma once
 
 #include <array>
 
@@ -37,4 +36,3 @@ namespace Debond
     return side == Side::bone ? "bone" : "implant";
   }
 } // namespace Debond
-#endif

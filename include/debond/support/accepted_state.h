@@ -1,5 +1,4 @@
-#ifndef debond_support_accepted_state_h
-#define debond_support_accepted_state_h
+#pragma once
 
 #include <limits>
 
@@ -50,4 +49,3 @@ namespace Debond
     double time = std::numeric_limits<double>::quiet_NaN(), time_before = time;
   };
 } // namespace Debond
-#endif

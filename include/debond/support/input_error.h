@@ -1,5 +1,4 @@
-#ifndef debond_support_input_error_h
-#define debond_support_input_error_h
+#pragma once
 
 #include <optional>
 #include <stdexcept>
@@ -91,4 +90,3 @@ namespace Debond
     const int signal;
   };
 } // namespace Debond
-#endif

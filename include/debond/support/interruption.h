@@ -1,5 +1,4 @@
-#ifndef debond_support_interruption_h
-#define debond_support_interruption_h
+#pragma once
 
 #include <string>
 
@@ -44,4 +43,3 @@ namespace Debond
   int
   interruption_descriptor();
 } // namespace Debond
-#endif

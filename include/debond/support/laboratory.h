@@ -1,5 +1,4 @@
-#ifndef debond_support_laboratory_h
-#define debond_support_laboratory_h
+#pragma once
 
 #include <string>
 #include <vector>
@@ -27,4 +26,3 @@ namespace Debond
     extern const char *const what_it_needs;
   } // namespace Laboratory
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_support_number_text_h
-#define debond_support_number_text_h
+#pragma once
 
 #include <charconv>
 #include <cmath>
@@ -94,4 +93,3 @@ namespace Debond
     Classic<std::ostringstream> stream;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_support_processor_h
-#define debond_support_processor_h
+#pragma once
 
 namespace Debond
 {
@@ -10,4 +9,3 @@ namespace Debond
   void
   require_instructions();
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_support_progress_h
-#define debond_support_progress_h
+#pragma once
 
 #include <chrono>
 #include <string>
@@ -39,4 +38,3 @@ namespace Debond
     double first_fraction = -1.; ///< what was done before is no measure of pace
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_support_provenance_h
-#define debond_support_provenance_h
+#pragma once
 
 #include <string>
 #include <utility>
@@ -25,4 +24,3 @@ namespace Debond
   std::vector<std::pair<std::string, std::string>>
   provenance();
 } // namespace Debond
-#endif

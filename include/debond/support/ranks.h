@@ -1,5 +1,4 @@
-#ifndef debond_support_ranks_h
-#define debond_support_ranks_h
+#pragma once
 
 #include <Eigen/Core>
 #include <mpi.h>
@@ -123,4 +122,3 @@ namespace Debond
     end_all(int code);
   } // namespace Ranks
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_support_runtime_h
-#define debond_support_runtime_h
+#pragma once
 
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/parallel.h>
@@ -97,4 +96,3 @@ namespace Debond
     std::optional<dealii::TimerOutput::Scope> scope;
   };
 } // namespace Debond
-#endif

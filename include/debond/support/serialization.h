@@ -1,5 +1,4 @@
-#ifndef debond_support_serialization_h
-#define debond_support_serialization_h
+#pragma once
 
 #include <Eigen/Core>
 
@@ -225,4 +224,3 @@ namespace Debond
     std::vector<std::shared_ptr<const void>> shared;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_support_written_files_h
-#define debond_support_written_files_h
+#pragma once
 
 #include <memory>
 #include <optional>
@@ -59,4 +58,3 @@ namespace Debond
   DirectoryLock
   lock_directory(const std::string &directory);
 } // namespace Debond
-#endif

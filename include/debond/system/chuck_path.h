@@ -1,5 +1,4 @@
-#ifndef debond_system_chuck_path_h
-#define debond_system_chuck_path_h
+#pragma once
 
 #include <debond/bulk/chuck.h>
 
@@ -71,4 +70,3 @@ namespace Debond
     Lengths missed_shares = Lengths::Zero();
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_system_coupled_system_h
-#define debond_system_coupled_system_h
+#pragma once
 
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
@@ -319,4 +318,3 @@ namespace Debond
     const CoupledTangent          matrix;
   };
 } // namespace Debond
-#endif

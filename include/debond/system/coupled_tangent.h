@@ -1,5 +1,4 @@
-#ifndef debond_system_coupled_tangent_h
-#define debond_system_coupled_tangent_h
+#pragma once
 
 #include <debond/bulk/body.h>
 #include <debond/bulk/chuck.h>
@@ -159,4 +158,3 @@ namespace Debond
     const PathEquation           &path;
   };
 } // namespace Debond
-#endif

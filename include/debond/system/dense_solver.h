@@ -1,5 +1,4 @@
-#ifndef debond_system_dense_solver_h
-#define debond_system_dense_solver_h
+#pragma once
 
 #include <debond/support/serialization.h>
 
@@ -117,4 +116,3 @@ namespace Debond
     std::shared_ptr<const Factors> factors;
   };
 } // namespace Debond
-#endif

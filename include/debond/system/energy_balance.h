@@ -1,5 +1,4 @@
-#ifndef debond_system_energy_balance_h
-#define debond_system_energy_balance_h
+#pragma once
 
 #include <debond/bulk/chuck.h>
 
@@ -175,4 +174,3 @@ namespace Debond
     double         largest_work = 0, work = 0, at_start = 0;
   };
 } // namespace Debond
-#endif

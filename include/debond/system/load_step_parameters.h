@@ -1,5 +1,4 @@
-#ifndef debond_system_load_step_parameters_h
-#define debond_system_load_step_parameters_h
+#pragma once
 
 #include <debond/bulk/chuck.h>
 #include <debond/interface/interface_parameters.h>
@@ -137,4 +136,3 @@ namespace Debond
     why_multigrid() const;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_system_memory_estimate_h
-#define debond_system_memory_estimate_h
+#pragma once
 
 #include <debond/shapes/body_parameters.h>
 #include <debond/support/input_error.h>
@@ -46,4 +45,3 @@ namespace Debond
   void
   require_memory(const ModelParameters &model, bool draws, bool has_bodies);
 } // namespace Debond
-#endif

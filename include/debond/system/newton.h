@@ -1,5 +1,4 @@
-#ifndef debond_system_newton_h
-#define debond_system_newton_h
+#pragma once
 
 #include <debond/system/coupled_system.h>
 
@@ -47,4 +46,3 @@ namespace Debond
   NewtonResult
   solve_newton(CoupledSystem &system, const NewtonOptions &options);
 } // namespace Debond
-#endif

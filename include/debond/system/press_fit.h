@@ -1,5 +1,4 @@
-#ifndef debond_system_press_fit_h
-#define debond_system_press_fit_h
+#pragma once
 
 #include <debond/geometry/nurbs_surface.h>
 #include <debond/input/expression_parser.h>
@@ -62,4 +61,3 @@ namespace Debond
     double     accepted_force = 0;          ///< conjugate to `half' [N]
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_system_step_control_h
-#define debond_system_step_control_h
+#pragma once
 
 #include <debond/bulk/chuck.h>
 #include <debond/system/load_step_parameters.h>
@@ -400,4 +399,3 @@ namespace Debond
     bool slip_failed = false, time_failed = false;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_system_step_solver_h
-#define debond_system_step_solver_h
+#pragma once
 
 #include <debond/system/coupled_system.h>
 #include <debond/system/newton.h>
@@ -104,4 +103,3 @@ namespace Debond
     unsigned int           n_states = 0;
   };
 } // namespace Debond
-#endif

@@ -1,5 +1,4 @@
-#ifndef debond_system_whole_solver_h
-#define debond_system_whole_solver_h
+#pragma once
 
 #include <debond/bulk/whole_bulk.h>
 #include <debond/system/coupled_tangent.h>
@@ -55,4 +54,3 @@ namespace Debond
               double                 relative_tolerance,
               dealii::TimerOutput   *timer);
 } // namespace Debond
-#endif

@@ -406,9 +406,8 @@ namespace Debond
 
 
 
-    class MathieuTorsion : public TorsionModel
+    struct MathieuTorsion : TorsionModel
     {
-    public:
       using TorsionModel::TorsionModel;
 
       double G = 0, w_adh = 0, tau_0 = 0; // [MPa, N/mm, MPa]

@@ -119,9 +119,8 @@ namespace Debond
    * points may be updated in any order. How to add a law:
    * doc/developers/law.md.
    */
-  class FrictionLaw
+  struct FrictionLaw
   {
-  public:
     virtual ~FrictionLaw() = default;
 
     /** @name Parameters */

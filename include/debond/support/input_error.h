@@ -8,9 +8,8 @@ namespace Debond
 {
   /** Anything wrong with what the user gave: the message is complete and is
    *  printed as it is. */
-  class InputError : public std::runtime_error
+  struct InputError : std::runtime_error
   {
-  public:
     using std::runtime_error::runtime_error;
   };
 
@@ -30,9 +29,8 @@ namespace Debond
    *
    *   PLACE: ENTRY = 'VALUE': WHY
    */
-  class EntryError : public InputError
+  struct EntryError : InputError
   {
-  public:
     /** @p entry: the full name, "Bone / Size"; empty for the scene as a whole.
      *  @p why: what is wrong, or what is expected. @p place: "scene.prm:12". */
     EntryError(const std::string         &entry,
@@ -55,33 +53,29 @@ namespace Debond
 
   /** A checkpoint that a run cannot go on from: another program, or another
    *  way to solve for the bone, has left it. */
-  class ForeignCheckpoint : public InputError
+  struct ForeignCheckpoint : InputError
   {
-  public:
     using InputError::InputError;
   };
 
   /** A run that could not be finished; the message says where and why. */
-  class RunError : public std::runtime_error
+  struct RunError : std::runtime_error
   {
-  public:
     using std::runtime_error::runtime_error;
   };
 
   /** A file of results that could not be written: a full disk, a directory that
    *  is not ours to write to. The message names the file and says what the
    *  system says. */
-  class WriteError : public RunError
+  struct WriteError : RunError
   {
-  public:
     using RunError::RunError;
   };
 
   /** A run or a study that a signal has ended; the message says how to go on.
    */
-  class Interrupted : public std::runtime_error
+  struct Interrupted : std::runtime_error
   {
-  public:
     Interrupted(const int signal, const std::string &message)
       : std::runtime_error(message)
       , signal(signal)

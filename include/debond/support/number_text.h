@@ -13,9 +13,8 @@ namespace Debond
    *  Others take their locale, and so 1.234,5 of Germany, from the program that
    *  uses this library. */
   template <typename Stream>
-  class Classic : public Stream
+  struct Classic : Stream
   {
-  public:
     template <typename... Arguments>
     explicit Classic(Arguments &&...arguments)
       : Stream(std::forward<Arguments>(arguments)...)

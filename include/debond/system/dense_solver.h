@@ -11,9 +11,8 @@ namespace Debond
 {
   /** An unsymmetric matrix A = B + C that is not stored: B the condensed bulk,
    *  C the interface. */
-  class SplitMatrix
+  struct SplitMatrix
   {
-  public:
     virtual ~SplitMatrix() = default;
     /** A x. */
     virtual Eigen::VectorXd

@@ -11,9 +11,8 @@ namespace Debond
   extern const char *const out_of_memory;
 
   /** A scene whose bodies do not fit into the memory that there is. */
-  class NotEnoughMemory : public EntryError
+  struct NotEnoughMemory : EntryError
   {
-  public:
     using EntryError::EntryError;
   };
 

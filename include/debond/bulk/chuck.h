@@ -14,8 +14,6 @@
 
 namespace Debond
 {
-  enum class Quantity;
-
   class EntryTable;
 
   /** The six motions of the chuck, and the forces and moments conjugate to

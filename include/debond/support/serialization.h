@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -152,13 +151,6 @@ namespace Debond
     take(std::vector<bool> &values)
     {
       take_as<std::string>(values);
-    }
-
-    template <typename T>
-    void
-    take(std::set<T> &values)
-    {
-      take_as<std::vector<T>>(values);
     }
 
     template <typename Key, typename T>

@@ -92,8 +92,6 @@ namespace Debond
       std::vector<unsigned int> lines;
       const auto                rows = read_csv_columns(
         filename, entry, {"x", "y", "z", "grey"}, false, &lines);
-      if (rows.empty())
-        refuse("it has no rows");
       StoredVoxels            image;
       std::array<GridLine, 3> grid;
       for (unsigned int d = 0; d < 3; ++d)

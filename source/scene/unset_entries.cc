@@ -17,16 +17,6 @@ namespace Debond
 {
   namespace
   {
-    /** Fields of a line of a table, which may be in quotes. */
-    std::vector<std::string>
-    fields_of(const std::string &line)
-    {
-      const boost::tokenizer<boost::escaped_list_separator<char>> fields(line);
-      return {fields.begin(), fields.end()};
-    }
-
-
-
     /** Values that the literature has for entries, by their full names, from
      *  doc/reference/typical_values.csv. */
     const std::map<std::string, std::string> &
@@ -37,8 +27,11 @@ namespace Debond
         Classic<std::istringstream>        lines(debond_typical_values);
         for (std::string line; std::getline(lines, line);)
           {
-            // quantity, value, unit, for, source, entries with values
-            const std::vector<std::string> field = fields_of(line);
+            // quantity, value, unit, for, source, entries with values; they
+            // may be in quotes
+            const boost::tokenizer<boost::escaped_list_separator<char>> fields(
+              line);
+            const std::vector<std::string> field(fields.begin(), fields.end());
             for (const std::string &entry_and_values : split(field.at(5), ";"))
               {
                 const std::vector<std::string> entry =

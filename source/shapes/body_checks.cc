@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace Debond
 {
@@ -211,20 +210,19 @@ namespace Debond
                              const EntryCheck     &refuse)
   {
     const bool is_fitted = body.is_fitted() || body.shape_row().is_lattice();
-    for (const auto &[is_set, entry, expected] :
-         {std::make_tuple(!is_fitted && body.element == ElementKind::spline,
-                          "Element",
-                          "trilinear or quadratic"),
-          std::make_tuple(body.coarser_below, "Coarser below", "false"),
-          std::make_tuple(body.cells_under_implant > 0,
-                          "Cells under implant",
-                          "none"),
-          std::make_tuple(body.lateral_grading != 1., "Lateral grading", "1"),
-          std::make_tuple(body.bulk_solver == BulkSolver::lattice,
-                          "Solver",
-                          is_fitted ? "auto or direct" :
-                                      "auto, direct or multigrid")})
-      refuse(is_set, entry, reason + ": expected " + expected);
+    const std::string expected = reason + ": expected ";
+    refuse(!is_fitted && body.element == ElementKind::spline,
+           "Element",
+           expected + "trilinear or quadratic");
+    refuse(body.coarser_below, "Coarser below", expected + "false");
+    refuse(body.cells_under_implant > 0,
+           "Cells under implant",
+           expected + "none");
+    refuse(body.lateral_grading != 1., "Lateral grading", expected + "1");
+    refuse(body.bulk_solver == BulkSolver::lattice,
+           "Solver",
+           expected +
+             (is_fitted ? "auto or direct" : "auto, direct or multigrid"));
   }
 
 

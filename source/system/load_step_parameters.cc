@@ -1,5 +1,4 @@
 #include <debond/input/entry_table.h>
-#include <debond/support/input_error.h>
 #include <debond/support/number_text.h>
 #include <debond/system/load_step_parameters.h>
 
@@ -116,12 +115,7 @@ namespace Debond
   void
   LoadSteppingParameters::check() const
   {
-    const auto refuse = [](const bool         is_mistake,
-                           const std::string &entry,
-                           const std::string &message) {
-      if (is_mistake)
-        throw EntryError("Load steps / " + entry, message);
-    };
+    const EntryCheck refuse = refusal_in("Load steps");
     for (std::size_t i = 1; i < times.size(); ++i)
       refuse(!(times[i] > times[i - 1]),
              "Times",

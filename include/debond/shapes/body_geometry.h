@@ -78,7 +78,7 @@ namespace Debond
                                         const std::string &entry,
                                         const std::string &message)>;
 
-  /** Refusal by an EntryError of "Bone" or "Implant". */
+  /** Refusal by an EntryError of a section, "Bone". */
   EntryCheck
   refusal_in(const std::string &section);
 

@@ -208,6 +208,14 @@ namespace Debond
 
 
 
+  bool
+  is_among(const std::vector<std::string> &names, const std::string &name)
+  {
+    return std::count(names.begin(), names.end(), name) > 0;
+  }
+
+
+
   std::string
   remark_on_special_character(const std::string &text)
   {
@@ -322,7 +330,7 @@ namespace Debond
     {
       const std::vector<std::string> names = split(choices, "|");
       return {[names](const std::string &text) {
-                return std::count(names.begin(), names.end(), text) > 0;
+                return is_among(names, text);
               },
               choices,
               nullptr,

@@ -1,3 +1,4 @@
+#include <debond/input/allowed_values.h>
 #include <debond/output/console.h>
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
@@ -111,9 +112,7 @@ namespace Debond
   void
   Console::warn(const std::string &key, const std::string &text)
   {
-    if (text.empty() ||
-        std::find(warning_keys.begin(), warning_keys.end(), key) !=
-          warning_keys.end())
+    if (text.empty() || is_among(warning_keys, key))
       return;
     warning_keys.push_back(key);
     warnings.push_back(text);

@@ -24,14 +24,6 @@ namespace Debond
 
 
 
-  bool
-  is_among(const std::vector<std::string> &names, const std::string &entry)
-  {
-    return std::count(names.begin(), names.end(), entry) > 0;
-  }
-
-
-
   namespace
   {
     using Change = unsigned int (*)(unsigned int n);

@@ -1,3 +1,4 @@
+#include <debond/input/allowed_values.h>
 #include <debond/scene/scene.h>
 
 #include <algorithm>
@@ -73,7 +74,7 @@ namespace Debond
           const auto &own = body->shape_row().entries;
           for (const ShapeRow &shape : shape_rows())
             for (const std::string &entry : shape.entries)
-              readers.push_back({std::count(own.begin(), own.end(), entry) > 0,
+              readers.push_back({is_among(own, entry),
                                  "Shape = " + shape.name,
                                  {name + entry}});
         }
@@ -178,16 +179,12 @@ namespace Debond
     std::string
     other_law(const InterfaceParameters &interface, const std::string &entry)
     {
-      const auto is_of = [](const std::vector<std::string> &names,
-                            const std::string              &chosen) {
-        return std::find(names.begin(), names.end(), chosen) != names.end();
-      };
       const auto joints = interface.law_choice.laws_with(entry),
                  laws   = interface.friction_choice.laws_with(entry);
-      if (!laws.empty() && (!is_of(laws, interface.friction_choice.law) ||
+      if (!laws.empty() && (!is_among(laws, interface.friction_choice.law) ||
                             interface.friction->is_frictionless))
         return "another Friction law";
-      return joints.empty() || is_of(joints, interface.law_choice.law) ?
+      return joints.empty() || is_among(joints, interface.law_choice.law) ?
                "" :
                "Law = " + joints.front();
     }

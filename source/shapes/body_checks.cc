@@ -136,14 +136,6 @@ namespace Debond
 
 
 
-    bool
-    has(const ShapeRow &shape, const std::string &entry)
-    {
-      return std::count(shape.entries.begin(), shape.entries.end(), entry) > 0;
-    }
-
-
-
     /** Refuses an entry of another shape that was changed: it was meant to do
      *  something. */
     void
@@ -158,11 +150,11 @@ namespace Debond
                  others       = entries_of(usual, is_bone);
       for (std::size_t i = 0; i < entries.size(); ++i)
         if (const std::string &name = entries[i].name;
-            entries[i].value != others[i].value && !has(own, name))
+            entries[i].value != others[i].value && !is_among(own.entries, name))
           refuse(std::any_of(shape_rows().begin(),
                              shape_rows().end(),
                              [&](const ShapeRow &shape) {
-                               return has(shape, name);
+                               return is_among(shape.entries, name);
                              }),
                  name,
                  "it has no meaning for this Shape, " + own.name + ": give " +

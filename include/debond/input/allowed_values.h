@@ -112,6 +112,9 @@ namespace Debond
   std::vector<std::string>
   split_list(const std::string &text);
 
+  bool
+  is_among(const std::vector<std::string> &names, const std::string &name);
+
   /** Remark on a character of @p text that is not ASCII, or nothing. Word
    *  processors and web pages put such characters where they can hardly be told
    *  from plain ones, or not be seen at all. */

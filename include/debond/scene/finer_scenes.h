@@ -1,5 +1,6 @@
 #pragma once
 
+#include <debond/input/allowed_values.h>
 #include <debond/scene/scene.h>
 
 #include <optional>
@@ -42,10 +43,6 @@ namespace Debond
    *  completed parameters. */
   Scene
   with_choices_of(const Scene &scene, const std::string &parameters);
-
-  /** Whether the full name of an entry is among those that were chosen. */
-  bool
-  is_among(const std::vector<std::string> &names, const std::string &entry);
 
   /** The entries that were chosen, as the text of completed parameters names
    *  them. */

@@ -18,31 +18,53 @@
 
 namespace Debond
 {
-  void
-  remove_results(const std::string &directory)
+  namespace
   {
-    namespace fs = std::filesystem;
-    if (!Ranks::is_first())
-      return;
-    static const std::regex rung("coarser|rung-[0-9]+"),
-      file(
-        "(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
-        "report\\.html|torque\\.(svg|png)|"
-        "(torque|reactions|curve|curve_at|errors|reference|auto|bonding|profiles|"
-        "friction_law|maps|correlations|profile|fit(-[0-9]+)?)\\.csv|"
-        "calibration\\.json|fitted(-[0-9]+)?\\.prm|evaluations\\.jsonl|"
-        "(bulk|interface|points)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
-    const fs::directory_iterator entries(directory);
-    for (const fs::path &path :
-         std::vector<fs::path>(fs::begin(entries), fs::end(entries)))
-      {
-        const std::string name = path.filename().string();
-        const bool        is_rung =
-          std::regex_match(name, rung) && fs::exists(path / "parameters.prm");
-        if (is_rung || std::regex_match(name, file))
-          fs::remove_all(path);
-      }
-  }
+    /** Removes what debond has written into a directory, but for
+     * parameters.prm; images that others made of the results stay, and what
+     * only has the name of a directory rung-NUMBER of Model = auto. Throws
+     *  std::filesystem::filesystem_error if that is impossible. */
+    void
+    remove_results(const std::string &directory)
+    {
+      namespace fs = std::filesystem;
+      if (!Ranks::is_first())
+        return;
+      static const std::regex rung("coarser|rung-[0-9]+"),
+        file(
+          "(summary|repetition-[0-9]+)\\.json|checkpoint-[12]|"
+          "report\\.html|torque\\.(svg|png)|"
+          "(torque|reactions|curve|curve_at|errors|reference|auto|bonding|profiles|"
+          "friction_law|maps|correlations|profile|fit(-[0-9]+)?)\\.csv|"
+          "calibration\\.json|fitted(-[0-9]+)?\\.prm|evaluations\\.jsonl|"
+          "(bulk|interface|points)(-[0-9]+(\\.[0-9]+)?\\.p?vtu|\\.pvd)");
+      const fs::directory_iterator entries(directory);
+      for (const fs::path &path :
+           std::vector<fs::path>(fs::begin(entries), fs::end(entries)))
+        {
+          const std::string name = path.filename().string();
+          const bool        is_rung =
+            std::regex_match(name, rung) && fs::exists(path / "parameters.prm");
+          if (is_rung || std::regex_match(name, file))
+            fs::remove_all(path);
+        }
+    }
+
+
+
+    const std::string origin_begins = "# Written by ";
+
+    /** The first line of parameters.prm. */
+    std::string
+    origin_line()
+    {
+      std::string line;
+      for (const auto &[name, text] : provenance())
+        line += (line.empty() ? origin_begins : ", " + name + " ") + text;
+      std::replace(line.begin(), line.end(), '\n', ' ');
+      return line + "\n";
+    }
+  } // namespace
 
 
 
@@ -65,24 +87,6 @@ namespace Debond
     fs::rename(kept, coarser);
     ResultDirectory(coarser).write_parameters(completed_parameters);
   }
-
-
-
-  namespace
-  {
-    const std::string origin_begins = "# Written by ";
-
-    /** The first line of parameters.prm. */
-    std::string
-    origin_line()
-    {
-      std::string line;
-      for (const auto &[name, text] : provenance())
-        line += (line.empty() ? origin_begins : ", " + name + " ") + text;
-      std::replace(line.begin(), line.end(), '\n', ' ');
-      return line + "\n";
-    }
-  } // namespace
 
 
 

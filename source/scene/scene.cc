@@ -18,6 +18,17 @@ namespace Debond
 {
   namespace
   {
+    // A program that makes a scene chooses its cells and steps itself.
+    Scene
+    scene_to_be_read()
+    {
+      Scene scene;
+      scene.accuracy = 0.01;
+      return scene;
+    }
+
+
+
     /** Lines that tell the contents of all files that make the results. */
     std::string
     identities(const Scene &scene)
@@ -56,6 +67,34 @@ namespace Debond
 
 
 
+    // Torque over angle where the chuck may turn about z, else the load and the
+    // position of the component that it moves most.
+    // What is moved comes before what is loaded. An angle counts as what it
+    // moves at the rim.
+    CurveAxes
+    usual_curve(const Scene &scene)
+    {
+      std::array<double, ChuckParameters::n_components> way;
+      for (unsigned int k = 0; k < way.size(); ++k)
+        {
+          const std::vector<double> values = scene.sampled_values(k);
+          const auto [least, most] =
+            std::minmax_element(values.begin(), values.end());
+          way[k] = (is_rotation(k) ?
+                      scene.implant.characteristic_radius() * M_PI / 180. :
+                      1.) *
+                   (scene.chuck.component[k].loaded ? 1e-9 : 1.) *
+                   (*most - *least);
+        }
+      const auto         furthest = std::max_element(way.begin(), way.end());
+      const unsigned int k        = furthest - way.begin();
+      return way[ChuckComponent::rotation_z] > 0. || *furthest == 0. ?
+               CurveAxes() :
+               CurveAxes{k, k};
+    }
+
+
+
     // A measured curve of angles and torques says itself which curve it is.
     // Fits read their curves themselves, which may be others.
     void
@@ -68,7 +107,7 @@ namespace Debond
         std::any_of(changed.begin(), changed.end(), [](const auto &entry) {
           return entry.name == "Task";
         });
-      output.axes               = named ? *named : scene.usual_curve();
+      output.axes               = named ? *named : usual_curve(scene);
       const bool is_other_curve = !named && !output.axes.is_torsion();
       if (is_fit && !is_other_curve)
         return;
@@ -125,17 +164,6 @@ namespace Debond
 
 
 
-  // A program that makes a scene chooses its cells and steps itself.
-  Scene
-  Scene::to_be_read()
-  {
-    Scene scene;
-    scene.accuracy = 0.01;
-    return scene;
-  }
-
-
-
   const EntryTable &
   default_entries()
   {
@@ -146,7 +174,7 @@ namespace Debond
         scene.declare(table);
       }
 
-      Scene      scene = Scene::to_be_read();
+      Scene      scene = scene_to_be_read();
       EntryTable table;
     };
     static const Defaults defaults;
@@ -191,7 +219,7 @@ namespace Debond
   Scene::from_entries(const std::vector<SceneEntry> &entries,
                       const std::string             &name)
   {
-    Scene scene   = to_be_read();
+    Scene scene   = scene_to_be_read();
     scene.entries = entries;
     scene.name    = name;
     EntryTable table;
@@ -234,31 +262,6 @@ namespace Debond
     take_entries(scene, completed);
     scene.note_choices(chosen);
     return scene;
-  }
-
-
-
-  // What is moved comes before what is loaded. An angle counts as what it moves
-  // at the rim.
-  CurveAxes
-  Scene::usual_curve() const
-  {
-    std::array<double, ChuckParameters::n_components> way;
-    for (unsigned int k = 0; k < way.size(); ++k)
-      {
-        const std::vector<double> values = sampled_values(k);
-        const auto [least, most] =
-          std::minmax_element(values.begin(), values.end());
-        way[k] =
-          (is_rotation(k) ? implant.characteristic_radius() * M_PI / 180. :
-                            1.) *
-          (chuck.component[k].loaded ? 1e-9 : 1.) * (*most - *least);
-      }
-    const auto         furthest = std::max_element(way.begin(), way.end());
-    const unsigned int k        = furthest - way.begin();
-    return way[ChuckComponent::rotation_z] > 0. || *furthest == 0. ?
-             CurveAxes() :
-             CurveAxes{k, k};
   }
 
 

@@ -10,13 +10,6 @@
 
 namespace Debond
 {
-  /** Removes what debond has written into a directory, but for parameters.prm;
-   *  images that others made of the results stay, and what only has the name of
-   *  a directory rung-NUMBER of Model = auto. Throws
-   *  std::filesystem::filesystem_error if that is impossible. */
-  void
-  remove_results(const std::string &directory);
-
   /** Moves the curve, summary and parameters of a run into the folder
    *  `coarser` of its directory, for the run that follows. @p
    *  completed_parameters: of what would have given the same. */

@@ -158,9 +158,6 @@ namespace Debond
     std::vector<SceneEntry>
     completed_entries() const;
 
-    /** A scene before its entries are read. */
-    static Scene
-    to_be_read();
     /** Reads a file, then the overrides "Subsection/Entry=value" in order.
      *  Throws InputError with file, line, entry, value, what is allowed. */
     static Scene
@@ -188,10 +185,6 @@ namespace Debond
      *  and where the rim is. After entries have been set. Throws InputError. */
     void
     take_values();
-    /** Torque over angle where the chuck may turn about z, else the load and
-     *  the position of the component that it moves most. */
-    CurveAxes
-    usual_curve() const;
 
     /** Fills completed_parameters of a scene that a program has made. */
     void

@@ -13,25 +13,18 @@ namespace Debond
   {
     constexpr double degree = M_PI / 180.;
     constexpr auto   twist  = ChuckComponent::rotation_z;
-
-
-
-    /** What a scene predicts needs neither a measured curve nor a directory. */
-    std::vector<SceneEntry>
-    without_reference(const std::vector<SceneEntry> &entries)
-    {
-      return with_overrides(entries,
-                            {"Task=simulate",
-                             "Output/Reference curve=none",
-                             "Expert/Output/Console=quiet"});
-    }
   } // namespace
 
 
 
+  // What a scene predicts needs neither a measured curve nor a directory.
   VaryingCurve::VaryingCurve(const std::vector<SceneEntry> &entries,
                              const std::string             &name)
-    : scene(without_reference(entries), name)
+    : scene(with_overrides(entries,
+                           {"Task=simulate",
+                            "Output/Reference curve=none",
+                            "Expert/Output/Console=quiet"}),
+            name)
     , given(scene.with({}))
   {}
 

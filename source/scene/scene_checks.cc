@@ -254,16 +254,6 @@ namespace Debond
 
 
 
-    /** What does not go with a model, beside what closed forms say
-     *  themselves. */
-    void
-    check_model(const Scene &scene)
-    {
-      if (scene.bone.modulus && scene.model != ModelKind::finite_elements)
-        throw EntryError("Bone / Young modulus",
-                         "one that varies is for Model = finite elements, and "
-                         "closed forms know none: expected a number");
-    }
   } // namespace
 
 
@@ -291,7 +281,11 @@ namespace Debond
     check_bonding_pattern(interface.bonding,
                           implant,
                           interface.points_per_element(bone, implant));
-    check_model(*this);
+    // closed forms say themselves what else does not go with them
+    if (bone.modulus && model != ModelKind::finite_elements)
+      throw EntryError("Bone / Young modulus",
+                       "one that varies is for Model = finite elements, and "
+                       "closed forms know none: expected a number");
     load_steps.check();
     check_start_of_friction(interface, load_steps);
     check_rate(*this);

@@ -88,10 +88,6 @@ namespace Debond
       return result;
     }
 
-    void
-    check_block(const BodyParameters &, const EntryCheck &)
-    {}
-
     NurbsSurface
     face_of_block(const BodyParameters &body)
     {
@@ -182,7 +178,7 @@ namespace Debond
              true,
              {"Size"},
              block,
-             check_block,
+             [](const BodyParameters &, const EntryCheck &) {},
              face_of_block}};
   }
 } // namespace Debond

@@ -44,15 +44,6 @@ namespace Debond
     // could be are as many as unknowns.
     constexpr unsigned int max_vectors = 200;
 
-    // Iterations that are cheaper than a new factorisation: n^3 against n^2
-    // work, with a floor for small systems where overheads count. A count and
-    // not the clock, which would make results depend on what else the machine
-    // does.
-    unsigned int
-    affordable_iterations(const unsigned int n)
-    {
-      return std::clamp(n / 50, 6u, 40u);
-    }
   } // namespace
 
 
@@ -85,13 +76,16 @@ namespace Debond
         to = y + A.interface_product(A.solve_bulk(y));
     }};
     // What cannot be assembled has no other solver behind it, and may iterate
-    // as long as GMRES can in exact arithmetic.
+    // as long as GMRES can in exact arithmetic. With factors as often as is
+    // cheaper than a new factorisation: n^3 against n^2 work, with a floor for
+    // small systems where overheads count. A count and not the clock, which
+    // would make results depend on what else the machine does.
     // Relative to |b|. Restarts only then: all vectors are kept, which costs
     // little where iterations are few.
-    const unsigned int max_iterations =
-      !A.can_be_assembled() ? b.size() :
-      factors               ? affordable_iterations(b.size()) :
-                              max_bulk_iterations;
+    const unsigned int n              = b.size(),
+                       max_iterations = !A.can_be_assembled() ? n :
+                                        factors ? std::clamp(n / 50, 6u, 40u) :
+                                                  max_bulk_iterations;
     dealii::SolverControl           control(max_iterations,
                                   relative_tolerance * b.norm(),
                                   false,

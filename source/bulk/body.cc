@@ -126,15 +126,13 @@ namespace Debond
   Body::refuse_archive(const int solver) const
   {
     const std::string names[]{"auto", "direct", "lattice", "multigrid"};
-    throw ForeignCheckpoint("Expert / Bone / Solver: "
-                            "the run was begun with " +
-                            names[solver & 3] + ", and cannot go on with " +
-                            names[solver_in_archive()] +
-                            (solver == static_cast<int>(BulkSolver::multigrid) ?
-                               ": --set \"Expert/Bone/Solver=multigrid\" does" :
-                             Ranks::number() > 1 ?
-                               ": it takes one process" :
-                               ": leave this entry as it was"));
+    throw ForeignCheckpoint(
+      "Expert / Bone / Solver: the run was begun with " + names[solver & 3] +
+      ", and cannot go on with " + names[solver_in_archive()] +
+      (solver == static_cast<int>(BulkSolver::multigrid) ?
+         ": --set \"Expert/Bone/Solver=multigrid\" does" :
+       Ranks::number() > 1 ? ": it takes one process" :
+                             ": leave this entry as it was"));
   }
 
 

@@ -52,9 +52,8 @@ namespace Debond
               parameters.sliding_threshold,
               Allowed::number_between(1e-9, 1e6, "mm").without_default(),
               "Characteristic slip distance a_s [mm]: sliding distance up to "
-              "which a point stays fully bonded. Used by modified coulomb, "
-              "and by coulomb with Law = adhesive; not with Law = mixed "
-              "mode.");
+              "which a point stays fully bonded. Used by modified coulomb, and "
+              "by coulomb with Law = adhesive; not with Law = mixed mode.");
     table.add("Transition factor",
               parameters.transition_factor,
               Allowed::number_between(1e-9, 1e6, "").without_default(),

@@ -56,9 +56,8 @@ namespace Debond
           throw EntryError(
             "Interface / Dilatant / Height",
             "the faces would climb by " + to_text(h_inf / l) +
-              " mm per mm of slip (Height / Length), more than "
-              "friction pays for: the coefficient without a bond "
-              "is " +
+              " mm per mm of slip (Height / Length), more than friction pays "
+              "for: the coefficient without a bond is " +
               to_text(least));
         return InterfaceLaw::initialise();
       }

@@ -50,9 +50,8 @@ namespace Debond
           "Reference coefficient",
           mu_0,
           Allowed::number_between(1e-9, 1e6, "").or_number(0).without_default(),
-          "mu_0, dimensionless: coefficient at a speed far below "
-          "Reference speed, with the state Sliding distance / "
-          "Reference speed.");
+          "mu_0, dimensionless: coefficient at a speed far below Reference "
+          "speed, with the state Sliding distance / Reference speed.");
         table.add("Direct effect",
                   A,
                   Allowed::number_between(1e-9, 1e6, "").without_default(),
@@ -62,9 +61,8 @@ namespace Debond
           "Evolution effect",
           B,
           Allowed::number_between(1e-9, 1e6, "").or_number(0).without_default(),
-          "B, dimensionless: mu changes by B ln(V_0 theta/D) as the "
-          "state theta evolves. With B > A friction falls with the "
-          "speed.");
+          "B, dimensionless: mu changes by B ln(V_0 theta/D) as the state "
+          "theta evolves. With B > A friction falls with the speed.");
         table.add("Reference speed",
                   V_0,
                   Allowed::number_between(1e-30, 1e15, "mm per unit of time")

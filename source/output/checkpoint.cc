@@ -109,8 +109,7 @@ namespace Debond
         ", format " + newest->format +
         ", and this is debond " DEBOND_VERSION ", format " +
         std::to_string(format) +
-        ": only the same program can go on with the run; --force begins "
-        "anew");
+        ": only the same program can go on with the run; --force begins anew");
     return newest;
   }
 

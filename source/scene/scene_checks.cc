@@ -162,8 +162,7 @@ namespace Debond
       if (scene.interface.is_viscous())
         throw EntryError(
           entry,
-          "along a path of equilibrium the time may fall and is "
-          "no clock for " +
+          "along a path of equilibrium the time may fall and is no clock for " +
             (scene.interface.viscosity > 0. ?
                "Interface / Viscosity = " + to_text(scene.interface.viscosity) :
                "Expert / Interface / Adhesive / Opening viscosity = " +

@@ -277,8 +277,7 @@ namespace Debond
         "Table that the curve is compared with: a file from an instrument or "
         "spreadsheet, or the torque.csv or reactions.csv of a run. Columns are "
         "separated by semicolons, tabs, commas or blanks; units are read from "
-        "the names of the columns, as in torque [N m]. `none': no "
-        "comparison.");
+        "the names of the columns, as in torque [N m]. `none': no comparison.");
       table.add(
         "Reference columns",
         output.reference_columns,
@@ -286,11 +285,10 @@ namespace Debond
           .or_word_for("auto", ""),
         "Columns of Reference curve with angle and torque, or with the "
         "quantities of Curve: each by name or by number from 1, with a unit "
-        "(such as deg, rad; mm, um; N mm, N cm, N m; N, kN) "
-        "where the file has none: Winkel [rad], 3 [N m]. A minus before the "
-        "unit, 3 [-N m], turns the sign. `auto': angle_deg and torque_Nmm, "
-        "or the columns of torque.csv that Curve names, else the only ones "
-        "with such units.");
+        "(such as deg, rad; mm, um; N mm, N cm, N m; N, kN) where the file has "
+        "none: Winkel [rad], 3 [N m]. A minus before the unit, 3 [-N m], turns "
+        "the sign. `auto': angle_deg and torque_Nmm, or the columns of "
+        "torque.csv that Curve names, else the only ones with such units.");
       table.add(
         "Expert / Reference profiles",
         output.reference_profiles,
@@ -320,9 +318,8 @@ namespace Debond
         output.full_sliding_angle,
         Allowed::number_above(0, "deg").or_word_for("auto", "0"),
         "Angle theta_fric [deg] from which E_fric of Eq. (20) is counted. "
-        "`auto': theta_full, the last angle with a torque of at least 0.999 "
-        "of the largest; with Model = prescribed angles, Slip counts from "
-        "angle.");
+        "`auto': theta_full, the last angle with a torque of at least 0.999 of "
+        "the largest; with Model = prescribed angles, Slip counts from angle.");
       table.add("Expert / Observed bonding",
                 output.observed_bonding,
                 Allowed::number_between(1e-9, 1, "").or_word_for("auto", "0"),

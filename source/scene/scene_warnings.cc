@@ -84,8 +84,7 @@ namespace Debond
                  E > 50000. && E > 2. * scene.implant.young_modulus,
                "moduli",
                "the bone, " + to_text(E) +
-                 " MPa, is stiffer than the "
-                 "implant, " +
+                 " MPa, is stiffer than the implant, " +
                  to_text(scene.implant.young_modulus) +
                  " MPa: are they swapped?");
           // A trilinear cell cannot bend without a change of its volume, which
@@ -283,9 +282,8 @@ namespace Debond
            entry +
              std::string(z.into_bone ? " is never positive" :
                                        " is never negative") +
-             ": it pulls the implant off the bone. What presses is positive "
-             "in Chuck / Press; Interface / Law = adhesive holds against a "
-             "pull");
+             ": it pulls the implant off the bone. What presses is positive in "
+             "Chuck / Press; Interface / Law = adhesive holds against a pull");
       const double push = -*least; // a machine's springs may take a larger one
       note(!z.is_unknown() && push > std::max(bone.penetration_limit(),
                                               implant.penetration_limit()),

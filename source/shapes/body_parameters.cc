@@ -178,9 +178,8 @@ namespace Debond
       "from a square core to the rim, o from there to the sides, in l layers, "
       "smaller towards the rim and the contact face; below a ring i from the "
       "core to its hole, and i across its wall. `fitted': 16, 6, 10, 9. "
-      "`auto': as Accuracy needs, without it 15, 15, 2. "
-      "Fitted cells are for Element = spline and save time where the interface "
-      "is stiff.");
+      "`auto': as Accuracy needs, without it 15, 15, 2. Fitted cells are for "
+      "Element = spline and save time where the interface is stiff.");
     declare_grading(*this, table);
     declare_solver(*this, table);
     declare_material(table, true);

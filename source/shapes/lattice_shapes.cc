@@ -61,8 +61,7 @@ namespace Debond
       check_coin(body, refuse);
       refuse(body.cap_radius <= body.radius,
              "Cap radius",
-             "a cap is flatter than a hemisphere: expected more than "
-             "Radius, " +
+             "a cap is flatter than a hemisphere: expected more than Radius, " +
                to_text(body.radius) + " mm");
       refuse(rise(body) >= body.height,
              "Height",

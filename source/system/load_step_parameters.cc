@@ -82,22 +82,20 @@ namespace Debond
         .or_word_for("auto", "1, 1000"),
       "Number of planned steps in each phase: one number fewer than Times. "
       "With Adaptive they set the largest step. `auto': as Accuracy needs, "
-      "without it 1, 1000. Finite elements with "
-      "friction divide a step that prescribes more than 5 degrees about z, "
-      "to keep the work accurate.");
+      "without it 1, 1000. Finite elements with friction divide a step that "
+      "prescribes more than 5 degrees about z, to keep the work accurate.");
     table.add(
       "Adaptive",
       adaptive,
       Allowed::choice("false | true").or_word_for("auto", "false"),
-      "Let the program choose the steps, at most as large as the "
-      "planned ones, so that the curves of torque and forces in "
-      "curve.csv (for a prescribed force or moment: of the "
-      "displacement) are within Tolerance, relative to the largest "
-      "value of each. For a component along which the machine stands "
-      "still, the reference is a tenth of the largest value of all, "
-      "if that is more. Each accepted step is a row. Steps end where "
-      "a prescribed motion turns back. Steps that do not converge "
-      "are halved in any case. `auto': as Accuracy needs, without it false.");
+      "Let the program choose the steps, at most as large as the planned ones, "
+      "so that the curves of torque and forces in curve.csv (for a prescribed "
+      "force or moment: of the displacement) are within Tolerance, relative to "
+      "the largest value of each. For a component along which the machine "
+      "stands still, the reference is a tenth of the largest value of all, if "
+      "that is more. Each accepted step is a row. Steps end where a prescribed "
+      "motion turns back. Steps that do not converge are halved in any case. "
+      "`auto': as Accuracy needs, without it false.");
     table.add("Tolerance",
               tolerance,
               Allowed::number_between(1e-7, 1, "").or_word_for("auto", "1e-3"),

@@ -283,20 +283,16 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
   // and statistics are at home; what they need of the program is its library,
   // as a module. A study is a scene whose entries hold several values, {{a|b}};
   // a calibration says so, and may have several values for its experiments.
-  bool
-  is_study(const std::vector<SceneEntry> &entries)
+  std::string
+  command_for(const std::vector<SceneEntry> &entries)
   {
-    return std::any_of(entries.begin(), entries.end(), [](const auto &entry) {
-      return entry.value.find("{{") != std::string::npos;
-    });
-  }
-
-  bool
-  is_calibration(const std::vector<SceneEntry> &entries)
-  {
-    return std::any_of(entries.begin(), entries.end(), [](const auto &entry) {
-      return entry.full_name() == "Task" && entry.value == "calibrate";
-    });
+    std::string command;
+    for (const SceneEntry &entry : entries)
+      if (entry.full_name() == "Task" && entry.value == "calibrate")
+        return "calibrate";
+      else if (entry.value.find("{{") != std::string::npos)
+        command = "study";
+    return command;
   }
 
   // The command of Python with the words that this program was given; a number
@@ -449,18 +445,15 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
                      arguments.overrides);
     // A calibration's entries hold <<unknowns>>, a study's {{a|b}}: each of its
     // variants is a scene, they themselves are none.
-    if (!arguments.print_parameters)
-      for (const auto &[command, is_one] :
-           {std::make_pair("calibrate", is_calibration(entries)),
-            std::make_pair("study", is_study(entries))})
-        if (is_one)
-          {
-            if (Ranks::number() > 1)
-              refuse_usage("studies and calibrations are processes of one "
-                           "machine: leave out mpirun, or deal variants out "
-                           "to many machines in Python (doc/howto/cluster.md)");
-            become(command, arguments);
-          }
+    if (const std::string command = command_for(entries);
+        !command.empty() && !arguments.print_parameters)
+      {
+        if (Ranks::number() > 1)
+          refuse_usage("studies and calibrations are processes of one "
+                       "machine: leave out mpirun, or deal variants out to "
+                       "many machines in Python (doc/howto/cluster.md)");
+        become(command, arguments);
+      }
 
     // Here text becomes a plain value, with all numbers in mm, N and MPa. What
     // is not allowed, or makes no sense together, is refused with its place.

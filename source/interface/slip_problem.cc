@@ -4,7 +4,6 @@
 
 namespace Debond
 {
-  using Eigen::Matrix3d;
   using Eigen::Vector2d;
   using Eigen::Vector3d;
   using Eigen::Vector4d;

@@ -31,10 +31,9 @@ namespace Debond
           std::signal(signal, SIG_DFL);
           std::raise(signal);
         }
-      arrived               = signal;
-      const ssize_t ignored = write(pipe_ends[1], "", 1);
-      static_cast<void>(ignored);
-      errno = reason;
+      arrived                                = signal;
+      [[maybe_unused]] const ssize_t ignored = write(pipe_ends[1], "", 1);
+      errno                                  = reason;
     }
   } // namespace
 

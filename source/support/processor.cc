@@ -15,9 +15,8 @@ namespace Debond
     void
     say(const char *const text)
     {
-      const ssize_t ignored =
+      [[maybe_unused]] const ssize_t ignored =
         write(STDERR_FILENO, text, __builtin_strlen(text));
-      static_cast<void>(ignored);
     }
   } // namespace
 

@@ -102,6 +102,13 @@ class Drawn:
         if pattern == "random":
             self.set("Interface/Bonding", Bonded_fraction=r(0.4, 0.8), Correlation_length=r(0.4, 0.8) * self.R, Seed=self.chance.randrange(1000))
 
+    def soften(self, p):
+        """Where the law would fall faster than the interface is stiff, and the bond break in a jump."""
+        a_s, b_s = self.of("Characteristic slip distance"), self.of("Transition factor")
+        if a_s:
+            fall = math.pi / 4 * (self.of("Friction coefficient unbroken") - self.of("Friction coefficient broken")) * p / b_s
+            self.set("Interface", Characteristic_slip_distance=max(a_s, float(f"{1.3 * fall / self.of('Tangential stiffness'):.3g}")))
+
     def add_load(self):
         """Pressed, or a press fit, then moved until all slides, and what bond there is breaks."""
         r = self.number
@@ -127,6 +134,8 @@ class Drawn:
             else:
                 depth = (0.6 * self.R) ** 2 / self.entries["Implant/Cap radius"] if self.shape == "cap" else p / self.soft
                 self.set("Chuck/Press", Value=f"{depth:.4g} * min(t, 1)")
+                if self.shape == "cap":
+                    self.soften(self.eps * depth)
             self.set("Chuck/" + ("Translation x" if load == "sheared" else "Rotation z"),
                      Value=f"{way if load == 'sheared' else turn} * max(t - 1, 0)")
         self.words.append(load)
@@ -157,9 +166,14 @@ class Run:
             self.summary = json.load(file)
         curve = self.summary.get("curve")
         names = (curve["over"], curve["load"]) if curve else ("angle_deg", "torque_Nmm")
-        with open(directory + "/curve.csv", encoding="utf-8") as file:
+        self.x, self.y = self.columns("curve.csv", names)
+        rows = "reactions.csv" if os.path.exists(directory + "/reactions.csv") else "torque.csv"
+        self.first = next(x for x in self.columns(rows, names)[0] if abs(x) > 1e-12)  # where the program takes its stiffness
+
+    def columns(self, name, names):
+        with open(f"{self.directory}/{name}", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        self.x, self.y = ([float(row[name]) for row in rows] for name in names)
+        return [[float(row[name]) for row in rows] for name in names]
 
     def entries(self):
         found, path = {}, []
@@ -199,7 +213,7 @@ def truth_of(run, options, seed):
     every = max(1, len(true.x) // 80)
     top = max(range(len(true.y)), key=lambda i: abs(true.y[i]))
     begin = next(i for i, x in enumerate(true.x) if abs(x) > 1e-12)
-    rows = sorted({*range(0, len(true.x), every), *range(begin - 1, min(begin + 9, len(true.x))), top, len(true.x) - 1})
+    rows = sorted({*range(0, len(true.x), every), *range(begin - 1, min(begin + 40, len(true.x))), top, len(true.x) - 1})
     x, y = ([float(f"{values[i]:.7g}") for i in rows] for values in (true.x, true.y))
     return {"x": x, "y": y, "cells": more["Bone/Cells"], "levels": levels, "seconds": round(true.seconds, 1)}
 
@@ -233,10 +247,9 @@ def main():
             continue
         true = truths[str(seed)]
         top = max(map(abs, true["y"]))
-        first_way = next(x for x in run.x if abs(x) > 1e-12)  # where both first slopes are taken
-        slope = load_at(true["x"], true["y"], first_way)
+        slope = load_at(true["x"], true["y"], run.first)
         errors = (max(abs(load_at(run.x, run.y, x) - y) for x, y in zip(true["x"], true["y"])) / top, abs(max(map(abs, run.y)) / top - 1),
-                  abs(load_at(run.x, run.y, first_way) / slope - 1) if slope else 0)
+                  abs(load_at(run.x, run.y, run.first) / slope - 1) if slope else 0)
         said = run.summary.get("error_estimate") or math.nan
         n_accurate += max(errors) <= options.accuracy
         n_bounded += max(errors) <= said

@@ -167,8 +167,7 @@ class Run:
         curve = self.summary.get("curve")
         names = (curve["over"], curve["load"]) if curve else ("angle_deg", "torque_Nmm")
         self.x, self.y = self.columns("curve.csv", names)
-        rows = "reactions.csv" if os.path.exists(directory + "/reactions.csv") else "torque.csv"
-        self.first = next(x for x in self.columns(rows, names)[0] if abs(x) > 1e-12)  # where the program takes its stiffness
+        self.first = next(x for x in self.x if abs(x) > 1e-12)  # where the program takes its stiffness
 
     def columns(self, name, names):
         with open(f"{self.directory}/{name}", encoding="utf-8") as file:

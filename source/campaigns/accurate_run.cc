@@ -131,10 +131,11 @@ namespace Debond
 
     /** The scene with more cells, if these help and may be; @p text says what
      * is tried, or why it is not, or that it has failed before. @p summary: of
-     * the run with the scene. */
+     * the run with the scene; @p error_before: of that before it. */
     std::optional<Scene>
     next_scene(const Scene                  &scene,
                const nlohmann::ordered_json &summary,
+               const double                  error_before,
                std::string                  &text)
     {
       if (!text.empty())
@@ -153,7 +154,8 @@ namespace Debond
                   ", and linear bodies " + percent("error_of_bodies");
           return {};
         }
-      if (!finer)
+      if (!finer || (!is_among(scene.chosen, "Bone / Cells") &&
+                     number_in(summary, "error_estimate") > 0.9 * error_before))
         {
           text += ": the scene sets its cells itself";
           return {};
@@ -199,6 +201,7 @@ namespace Debond
     const ResultDirectory directory = open_directory(scene, goes_on);
     std::optional<Scene>  before; // which the scene has more cells than
     std::string           text;   // why more cells fail, or what is tried next
+    double error_before = std::numeric_limits<double>::infinity();
     for (bool has_coarser = false;; checkpoint = nullptr)
       {
         const auto coarser = coarser_scene(scene);
@@ -233,11 +236,11 @@ namespace Debond
         if (!coarser)
           add_warning(directory,
                       summary,
-                      "the error is not known, as meshes of files cannot be "
-                      "made coarser");
+                      "the error is not known, as trilinear meshes of files "
+                      "cannot be coarser");
         if (!(error > scene.accuracy))
           return;
-        const auto finer = next_scene(scene, summary, text);
+        const auto finer = next_scene(scene, summary, error_before, text);
         if (!finer)
           return add_warning(directory, summary, text);
         say(scene, std::exchange(text, ""));
@@ -248,9 +251,10 @@ namespace Debond
         if (has_coarser)
           keep_as_coarser(directory.path(), next->completed_parameters);
         directory.write_parameters(finer->completed_parameters);
-        before = scene;
-        scene  = *finer;
-        bodies = nullptr;
+        error_before = error;
+        before       = scene;
+        scene        = *finer;
+        bodies       = nullptr;
       }
   }
 

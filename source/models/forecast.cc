@@ -79,6 +79,17 @@ namespace Debond
                  slip = way - most / interface.tangential_stiffness();
     if (!(slip > 0.))
       return;
+    // around the pole of a cup it slides less, or not at all: of the torque
+    // the part within an angle x of it is 4 x^3 / (3 pi)
+    if (scene.implant.shape == BodyShape::cup)
+      error +=
+        0.42 *
+        std::pow(std::min(1.,
+                          (most / interface.tangential_stiffness() +
+                           (phi_0 > 0. ? interface.friction->kinks.back() :
+                                         0.)) /
+                            (std::abs(turned) * scene.implant.radius)),
+                 3);
     // the distance slid in the end is known where the bond is gone by then
     const double decay =
       phi_0 > 0. ? interface.friction->decay(slip).value : 1.;
@@ -175,7 +186,7 @@ namespace Debond
       std::max(z.loaded ? 0. : of_bodies(0., implant.height) * p_over_depth,
                of_bodies(0., bar) * stiffness);
     error = 0.005 +
-            0.15 * std::max(z.loaded ? 0. : normal * p_over_depth,
+            0.18 * std::max(z.loaded ? 0. : normal * p_over_depth,
                             torsional * stiffness) +
             0.3 * in_implant * in_implant +
             (std::min(bone.size[0], bone.size[1]) < 2.3 * R ? 0.15 : 0.) +

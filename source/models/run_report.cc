@@ -93,7 +93,8 @@ namespace Debond
       std::string       adhesion =
         words("Work of adhesion {W_adh_Nmm} N mm from the curve, {D_adh_Nmm} "
               "N mm by the law");
-      if (adhesion.empty() && number_in(summary, "D_adh_Nmm") != 0.)
+      if (adhesion.empty() && number_in(summary, "D_adh_Nmm") >
+                                1e-9 * number_in(summary, "dissipation_Nmm"))
         adhesion = words("Work of adhesion {D_adh_Nmm} N mm by the law");
       std::string effort = filled(summary, "{wall_seconds} s", 2);
       if (!effort.empty())

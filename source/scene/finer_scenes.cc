@@ -28,9 +28,9 @@ namespace Debond
   {
     using Change = unsigned int (*)(unsigned int n);
 
-    /** Cells of a body as its entry says them, each number changed; with
+    /** Numbers of cells of a body as its entry says them, each changed; with
      *  @p keeps_around but those around an axis. */
-    std::string
+    std::vector<unsigned int>
     cells_of(const BodyParameters &body,
              const Change          change,
              const bool            keeps_around)
@@ -56,15 +56,47 @@ namespace Debond
           n[k] = std::max(fewest, unit * change(n[k] / unit));
         else
           n[k] = change(n[k]);
-      return (body.is_fitted() ? "fitted " : "") + entry_text(n);
+      return n;
+    }
+
+    unsigned int
+    same_number(const unsigned int n)
+    {
+      return n;
+    }
+
+    std::string
+    text_of(const BodyParameters &body, const std::vector<unsigned int> &cells)
+    {
+      return (body.is_fitted() ? "fitted " : "") + entry_text(cells);
+    }
+
+
+
+    /** Whether fewer cells are fewer in each direction. */
+    bool
+    may_be_coarser(const Scene &scene)
+    {
+      const bool keeps_around = scene.is_axisymmetric();
+      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+        {
+          const auto own   = cells_of(*body, same_number, keeps_around),
+                     fewer = cells_of(*body, fewer_cells, keeps_around);
+          for (unsigned int k = keeps_around ? 1 : 0; k < own.size(); ++k)
+            if (fewer[k] == own[k] && !body->is_rigid() &&
+                body->shape != BodyShape::file)
+              return false;
+        }
+      return true;
     }
 
 
 
     using Changes = std::map<std::string, std::string>;
 
-    // Where each element has a bond of its own, other cells would have another
-    // bond.
+    // Cells of a file stay: with fewer of the other body its elements are
+    // trilinear. Where each element has a bond of its own, other cells would
+    // have another bond.
     Changes
     changed_cells(const Scene &scene, const Change change)
     {
@@ -73,7 +105,10 @@ namespace Debond
                                           std::pair("Implant", &scene.implant)})
         if (body->shape != BodyShape::file)
           changes[section + std::string(" / Cells")] =
-            cells_of(*body, change, scene.is_axisymmetric());
+            text_of(*body, cells_of(*body, change, scene.is_axisymmetric()));
+        else if (change == fewer_cells &&
+                 body->element == ElementKind::quadratic)
+          changes[section + std::string(" / Element")] = "trilinear";
       if (const unsigned int under = scene.bone.cells_under_implant; under > 0)
         changes["Expert / Bone / Cells under implant"] =
           std::to_string(change(under));
@@ -121,10 +156,12 @@ namespace Debond
 
 
 
+  // Cells that cannot be fewer tell nothing: then there are more of all.
   std::optional<Scene>
   coarser_scene(const Scene &scene)
   {
-    Changes changes = changed_cells(scene, fewer_cells);
+    Changes changes =
+      changed_cells(scene, may_be_coarser(scene) ? fewer_cells : more_cells);
     if (changes.empty())
       return {};
     if (scene.load_steps.rows_are_planned())
@@ -188,8 +225,7 @@ namespace Debond
   cells_in_words(const Scene &scene)
   {
     const auto same = [](const BodyParameters &body) {
-      return cells_of(
-        body, [](const unsigned int n) { return n; }, true);
+      return text_of(body, cells_of(body, same_number, true));
     };
     return same(scene.bone) + " and " + same(scene.implant);
   }

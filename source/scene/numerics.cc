@@ -200,7 +200,8 @@ namespace Debond
                       std::to_string(along(in_bone)));
       choice.choose("Implant",
                     "Cells",
-                    around + "1, " + std::to_string(along(implant.height)));
+                    around + (implant.is_rigid() ? "1, " : "2, ") +
+                      std::to_string(along(implant.height)));
       for (const std::string section : {"Bone", "Implant"})
         {
           choice.choose(section, "Element", "quadratic");
@@ -211,30 +212,6 @@ namespace Debond
                           is_cup    ? "2" : // more makes the cells too thin
                                       "2.5");
         }
-    }
-
-
-
-    /** Whether the implant is only pressed in a phase, which takes one step. */
-    bool
-    is_press(const Scene &scene, const unsigned int phase)
-    {
-      const double begin = scene.load_steps.times[phase],
-                   end   = scene.load_steps.times[phase + 1];
-      for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
-        {
-          const auto value    = scene.value_over_time(k);
-          const bool is_axial = k == ChuckComponent::translation_z;
-          double     before   = value(begin);
-          for (unsigned int i = 1; i <= 16; ++i)
-            {
-              const double now = value(begin + i / 16. * (end - begin));
-              if (is_axial ? now > before : now != before)
-                return false;
-              before = now;
-            }
-        }
-      return !scene.implant.geometry().is_in_bore();
     }
 
 
@@ -267,7 +244,10 @@ namespace Debond
                               scene.interface.explicit_friction ||
                               !is_constant_fit(scene);
       for (unsigned int phase = 0; phase + 1 < steps.times.size(); ++phase)
-        n.push_back(is_press(scene, phase) ? 1 : is_planned ? 100 : 10);
+        n.push_back(scene.is_press(phase)  ? 1 :
+                    !is_planned            ? 10 :
+                    is_constant_fit(scene) ? 100 :
+                                             300); // straight lines
       choice.choose(section, "Steps", entry_text(n));
       if (is_planned)
         return;
@@ -277,6 +257,29 @@ namespace Debond
                     to_text(std::max(0.25 * scene.accuracy, 1e-7), 6));
     }
   } // namespace
+
+
+
+  bool
+  Scene::is_press(const unsigned int phase) const
+  {
+    const double begin = load_steps.times[phase],
+                 end   = load_steps.times[phase + 1];
+    for (unsigned int k = 0; k < ChuckParameters::n_components; ++k)
+      {
+        const auto value    = value_over_time(k);
+        const bool is_axial = k == ChuckComponent::translation_z;
+        double     before   = value(begin);
+        for (unsigned int i = 1; i <= 16; ++i)
+          {
+            const double now = value(begin + i / 16. * (end - begin));
+            if (is_axial ? now > before : now != before)
+              return false;
+            before = now;
+          }
+      }
+    return !implant.geometry().is_in_bore();
+  }
 
 
 
@@ -335,7 +338,9 @@ namespace Debond
       choice.choose(section, "Material", "linear");
     try
       {
-        if (bone.shape == BodyShape::block && implant.shape != BodyShape::file)
+        if (bone.shape == BodyShape::block &&
+            !implant.geometry().is_in_bore() &&
+            implant.shape != BodyShape::file)
           choose_on_block(choice);
         else if (bone.shape != BodyShape::block &&
                  bone.shape != BodyShape::file)
@@ -382,14 +387,17 @@ namespace Debond
         return {};
       return is_percent ? *number / 100. : *number;
     };
-    AllowedValues allowed =
-      Allowed::text("a share below 1, as 0.01, or a percentage, as 1 %", false);
+    AllowedValues allowed = Allowed::text(
+      "a share above 0 and below 1, as 0.01, or a percentage below 100 %, as 1 %",
+      false);
     allowed.test = [read](const std::string &text) {
       return text == "none" || read(text);
     };
     allowed.hint = [](const std::string &text) {
       const auto number = read_number(text);
-      return number && *number >= 1. ? text + " % has a %" : "";
+      return number && *number >= 1. ?
+               "for " + text + " % write " + text + " %" :
+               "";
     };
     allowed.description = "none, or " + allowed.description;
     table.add(

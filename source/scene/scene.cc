@@ -272,6 +272,7 @@ namespace Debond
     chuck.take_press();
     interface.bonding.identity = identity_of(interface.bonding.file);
     interface.friction         = create_friction_law(interface.friction_choice);
+    check_shapes();
     implant.make_mesh("Implant", implant);
     bone.make_mesh("Bone", implant);
     for (BodyParameters *const body : {&bone, &implant})

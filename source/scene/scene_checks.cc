@@ -18,13 +18,6 @@ namespace Debond
     void
     check_faces(const BodyParameters &bone, const BodyParameters &implant)
     {
-      if (implant.geometry().is_in_bore() && bone.shape_row().is_lattice())
-        throw EntryError("Implant / Shape",
-                         "a " + implant.shape_row().name +
-                           " is in the bone, and a " + bone.shape_row().name +
-                           " is below it: expected Bone / Shape = " +
-                           (implant.geometry().centre_of_sphere ? "cavity" :
-                                                                  "sleeve"));
       for (unsigned int d = 0; d < 2; ++d)
         if (implant.width(d) > bone.width(d))
           throw EntryError("Implant / " + implant.shape_row().entries.front(),
@@ -254,6 +247,20 @@ namespace Debond
 
 
   } // namespace
+
+
+
+  void
+  Scene::check_shapes() const
+  {
+    if (implant.geometry().is_in_bore() && bone.shape_row().is_lattice())
+      throw EntryError("Implant / Shape",
+                       "a " + implant.shape_row().name +
+                         " is in the bone, and a " + bone.shape_row().name +
+                         " is below it: expected Bone / Shape = " +
+                         (implant.geometry().centre_of_sphere ? "cavity" :
+                                                                "sleeve"));
+  }
 
 
 

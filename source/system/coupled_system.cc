@@ -428,10 +428,11 @@ namespace Debond
 
 
 
-  // Faces that do not touch yet offer no resistance to the load that presses
-  // them together. The chuck is brought as deep as the load would press the
-  // whole face into the interface, F / (eps_n A). From there Newton's method
-  // finds the depth, which of a curved face is larger.
+  // Faces that do not touch offer no resistance to the load that presses them
+  // together. The chuck is brought as deep as the load would press the whole
+  // face into the interface, F / (eps_n A). From there Newton's method finds
+  // the depth, which of a curved face is larger. A load that is nothing yet
+  // brings them to touch.
   CoupledSystem::Correction
   CoupledSystem::approach() const
   {
@@ -439,7 +440,7 @@ namespace Debond
     constexpr auto push = ChuckComponent::translation_z;
     const double   gap  = interface.smallest_gap();
     if (!chuck.is_loaded(push) || path.follow || gap > 10. * R ||
-        chuck.machine_load(push) >= 0. ||
+        chuck.machine_load(push) > 0. ||
         implant.mesh().parameters().geometry().is_in_bore())
       {
         result.why = "a loaded chuck has nothing to act against: in this trial "
@@ -450,7 +451,9 @@ namespace Debond
     for (const auto &[component, row] : configuration.chuck_unknowns)
       if (component == push)
         result.unknowns[row] =
-          chuck.machine_load(push) / path.stiffness[push] - gap;
+          -std::max(-chuck.machine_load(push), force_floor) /
+            path.stiffness[push] -
+          gap;
     if (const auto whole = bone.whole())
       result.bodies[Side::bone] =
         whole->at_nodes(Eigen::VectorXd::Zero(whole->n_owned()));

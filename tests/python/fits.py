@@ -640,8 +640,8 @@ def check_cells():
     report("errors that are left are small, and known", [one.entry for one in last.errors] == ["Cells", "Steps"] and last.warnings == []
            and max(one.half_widths for one in last.errors) < numerics.LARGEST, (last.errors, last.warnings))
     row = last.taken_as_known[0]
-    report("the table has cells first", row["value"] == "23, 23, 6 and 5, 5, 5" and row["change"] == "to 35, 35, 9 and 8, 8, 8"
-           and 0 < abs(row["effect"]["mu_ub"]) < 0.05, row)
+    levels = "23, 23, 6 and 5, 5, 5", "35, 35, 9 and 8, 8, 8", "53, 53, 14 and 12, 12, 12"  # the second just suffices, or is just needed
+    report("the table has cells first", (row["value"], row["change"][3:]) in zip(levels, levels[1:]) and 0 < abs(row["effect"]["mu_ub"]) < 0.05, row)
     for entry, value in (("Largest number of unknowns", "1000"), ("Largest minutes", "1e-4")):
         kept, problem.values["Expert / " + entry] = problem.values["Expert / " + entry], value
         said = numerics.refined(first).warnings[-1]

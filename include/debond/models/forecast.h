@@ -26,7 +26,7 @@ namespace Debond
     double F_max = none;                     ///< that pulls a pin out [N]
     double area  = none;                     ///< of a flat face [mm^2]
     /** Relative, of all of them. Of a flat face: half a per cent for mesh and
-     * steps, 0.15 of the bodies' share in the compliance, 0.3 of that of the
+     * steps, 0.18 of the bodies' share in the compliance, 0.3 of that of the
      * implant squared, 0.15 on a narrow bone, 0.03 for a bonded disk, whose rim
      * cuts elements (test `forecast`), and (3/2)(L/R)^2 on a soft interface
      * (doc/explanation/closed_forms.md). */

@@ -42,9 +42,14 @@ namespace Debond
   private:
     /** @p share: of the difference of two runs, what is the error of one. */
     void
-    find_members(const nlohmann::ordered_json &summary,
+    find_members(const std::vector<TorqueRow> &rows,
+                 const nlohmann::ordered_json &summary,
                  const nlohmann::ordered_json &other,
                  double                        share);
+    void
+    find_places(const Scene                  &scene,
+                const std::vector<TorqueRow> &rows,
+                const nlohmann::ordered_json &summary);
     void
     compare(const Scene                  &scene,
             const std::vector<TorqueRow> &rows,

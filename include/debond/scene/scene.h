@@ -130,6 +130,9 @@ namespace Debond
      *  its bodies. */
     bool
     asks_bodies() const;
+    /** Whether the implant is only pressed in a phase, which takes one step. */
+    bool
+    is_press(unsigned int phase) const;
     /** Whether the implant only turns about its axis and moves along it, and
      *  whether all else is round, too, and the same all around. */
     bool
@@ -195,6 +198,9 @@ namespace Debond
      *  from_text(); for scenes that a program has made or changed. */
     void
     check() const;
+    /** Of these, what the shapes of the two bodies need of each other. */
+    void
+    check_shapes() const;
 
     /** Refuses scenes of ranks that are to solve one together, and have
      *  different ones. Collective; done by all that runs a scene. */

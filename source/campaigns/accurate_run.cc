@@ -236,7 +236,7 @@ namespace Debond
         if (!coarser)
           add_warning(directory,
                       summary,
-                      "the error is not known, as trilinear meshes of files "
+                      "the error is not known, as these meshes of files "
                       "cannot be coarser");
         if (!(error > scene.accuracy))
           return;

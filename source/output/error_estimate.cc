@@ -236,7 +236,8 @@ namespace Debond
      *  1.6, as they become smaller: half of it. Twice of it where they are of
      *  first order, at a rim or a modulus that cells do not follow, or
      *  trilinear; all of it where a bond ends across cells, and where one body
-     * is of a file. */
+     *  is of a file; a quarter where both are, as trilinear elements are far
+     *  worse than quadratic ones. */
     double
     share_left(const Scene &scene)
     {
@@ -250,6 +251,12 @@ namespace Debond
       if (is_trilinear(bone) || is_trilinear(implant) || !follows_rim ||
           bone.modulus)
         return 2.;
+      const auto is_of_file = [](const BodyParameters &body) {
+        return body.shape == BodyShape::file || body.is_rigid();
+      };
+      if (is_of_file(bone) && is_of_file(implant) &&
+          (bone.shape == BodyShape::file || implant.shape == BodyShape::file))
+        return 0.25;
       return scene.interface.bonding_of_law().pattern !=
                    BondingPatternKind::homogeneous ||
                  bone.cells_under_implant > 0 ||

@@ -1,5 +1,6 @@
 #include <debond/input/entry_table.h>
 #include <debond/scene/finer_scenes.h>
+#include <debond/shapes/body_mesh.h>
 #include <debond/support/input_error.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -106,7 +107,8 @@ namespace Debond
         if (body->shape != BodyShape::file)
           changes[section + std::string(" / Cells")] =
             text_of(*body, cells_of(*body, change, scene.is_axisymmetric()));
-        else if (change == fewer_cells &&
+        else if (change == fewer_cells && body->mesh &&
+                 body->mesh->order == 1 &&
                  body->element == ElementKind::quadratic)
           changes[section + std::string(" / Element")] = "trilinear";
       if (const unsigned int under = scene.bone.cells_under_implant; under > 0)

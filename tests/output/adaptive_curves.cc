@@ -3,7 +3,7 @@
 // where points slide round in circles and to and fro, so that the state at the
 // end of a step depends on the way there, the curves of all six reactions keep
 // the tolerance against 800 steps in each phase; and under a moment that of the
-// angle does.
+// angle does. A kink that hides in a step is found.
 
 #include <debond/output/torque_curve.h>
 
@@ -118,6 +118,61 @@ check_cubic()
       report("  at the angle", std::abs(row.angle_deg - 6.15), 1e-12);
       report("  is there at this time", std::abs(f(row.time) - 2.05), 0.01);
     }
+}
+
+
+
+// The law of mixed mode ends abruptly: pulled at 45 degrees in one phase, the
+// forces fall to nothing within one of the long steps that are smooth before.
+// Against 400 equal steps, and drawn as if it were smooth, off by five
+// tolerances.
+void
+check_hidden_kink()
+{
+  const std::string pulled =
+    "subsection Bone\n set Cells = 6, 6, 2\n set Material = linear\nend\n"
+    "subsection Implant\n set Cells = 3, 4\n set Material = linear\nend\n"
+    "subsection Interface\n set Law = mixed mode\n"
+    " set Normal stiffness = 622\n set Tangential stiffness = 305\n"
+    " set Characteristic slip distance = 0.042\n"
+    " set Friction coefficient unbroken = 0.586\n"
+    " subsection Mixed mode\n"
+    "  set Normal strength = 5\n set Shear strength = 8\n"
+    "  set Fracture energy I = 0.05\n set Fracture energy II = 0.15\n"
+    "  set Stiffness = 2000\n set Criterion = benzeggagh-kenane\n"
+    " end\nend\n"
+    "subsection Chuck\n"
+    " subsection Translation x\n  set Value = 0.12 * t\n end\n"
+    " subsection Press\n  set Value = -0.12 * t\n end\nend\n"
+    "subsection Load steps\n set Times = 0, 1\n set Steps = 10\nend\n"
+    "subsection Expert\n"
+    " subsection Bone\n  set Layer grading = 1.5\n end\n"
+    " subsection Implant\n  set Layer grading = 1.5\n end\n"
+    " subsection Interface\n  subsection Mixed mode\n   set Exponent = 2\n"
+    "  end\n end\nend\n";
+  const auto rows = run_scene("equal", pulled, {"Load steps/Steps=400"});
+  const auto fine = fine_curve(
+    run_scene("adaptive",
+              pulled,
+              {"Load steps/Adaptive=true", "Load steps/Tolerance=1e-2"}));
+  std::cout << "A kink within a step" << std::endl;
+  double error = 0., largest = 0.;
+  auto   after = fine.begin();
+  for (const TorqueRow &row : rows)
+    {
+      while (after->time < row.time - 1e-12)
+        ++after;
+      const auto   before = after == fine.begin() ? after : std::prev(after);
+      const double part   = after == before ? 0. :
+                                              (row.time - before->time) /
+                                              (after->time - before->time);
+      const double force =
+        before->chuck_reaction[0] +
+        part * (after->chuck_reaction[0] - before->chuck_reaction[0]);
+      grow(error, std::abs(force - row.chuck_reaction[0]));
+      grow(largest, std::abs(row.chuck_reaction[0]));
+    }
+  report("  error over the tolerance", error / largest / 1e-2, 1.5);
 }
 
 
@@ -271,6 +326,7 @@ test()
                    "Chuck/Rotation z/Value=52 * (min(max(t - 1, 0), 1) - 1.8 * "
                    "max(t - 2, 0))"},
                   80);
+  check_hidden_kink();
   check_files();
 }
 

@@ -96,6 +96,9 @@ const Json own_summary{{"T_max_Nmm", 40.},
                        {"T_inf_Nmm", 30.},
                        {"initial_stiffness_Nmm_per_rad", 500.},
                        {"pressure_MPa", NAN},
+                       {"E_deb_Nmm", 12.},
+                       {"E_fric_Nmm", 10.},
+                       {"W_adh_Nmm", 2.},
                        {"E_bulk_Nmm", 1.},
                        {"E_interface_Nmm", 9.},
                        {"change_at_large_strains", 0.1}},
@@ -105,6 +108,9 @@ const Json own_summary{{"T_max_Nmm", 40.},
                      {"T_inf_Nmm", 28.},
                      {"initial_stiffness_Nmm_per_rad", 480.},
                      {"pressure_MPa", 2.5},
+                     {"E_deb_Nmm", 12.},
+                     {"E_fric_Nmm", 10.},
+                     {"W_adh_Nmm", 2.},
                      {"E_bulk_Nmm", 1.2},
                      {"E_interface_Nmm", 9.}};
 
@@ -164,7 +170,10 @@ test_parts()
   check("its angle, of which steps say nothing", member("theta_max_deg"), 1.25);
   check("torque at the end", member("T_inf_Nmm"), least * 30.);
   check("stiffness", member("initial_stiffness_Nmm_per_rad"), least * 500.);
-  check("energy", member("E_bulk_Nmm"), 0.1 + 0.0125);
+  check("energy, a square", member("E_bulk_Nmm"), 0.1375 + 2. * 0.0125);
+  check("a difference of two areas that are both off",
+        member("W_adh_Nmm"),
+        least * (12. + 10.));
   check("what is not known", member("pressure_MPa"), NAN);
   report("  no other curve", !errors.members.contains("curve"));
 
@@ -180,7 +189,17 @@ test_parts()
                   "Interface/Bonding/Bonded fraction=0.55"})
           .cells,
         11. / 40.);
-  check("planned steps", estimate({"Load steps/Adaptive=false"}).steps, 0.);
+  // without the row at 1.5 there is the chord from 0 to 30 N mm
+  const ErrorEstimate straight = estimate({"Load steps/Adaptive=false"});
+  check("planned steps, by chords", straight.steps, 25. / 40.);
+  check("cells then, at the times of the coarser run",
+        straight.cells,
+        0.5 * 3. / 40.);
+  check("a phase in one step, by its change",
+        estimate({"Load steps/Adaptive=false"},
+                 {{{0, 0, 0, 0}}, {{1, 0, 0, 0}}, {{2, 10, 30, 0}}})
+          .steps,
+        1.);
   check("steps of the scene",
         estimate({"Load steps/Tolerance=0.02"}).total,
         0.1375 + 0.02 + of_bodies);
@@ -205,6 +224,52 @@ test_parts()
   other["T_max_Nmm"]                     = 20.;
   leave_coarser(turned(curve_of_coarser), other);
   check("a peak that is", estimate({}).total, (10. + 0.0125 * 40.) / 40.);
+}
+
+
+
+void
+test_other_scenes()
+{
+  std::cout << "More cells instead of fewer" << std::endl;
+  Json own = own_summary, other = summary_of_coarser;
+  own["unknowns"]   = 100;
+  other["unknowns"] = 300;
+  leave_coarser(turned(curve_of_coarser), other);
+  check("cells, half the difference and all of it",
+        estimate({}, own_curve, own).cells,
+        1.5 * 11. / 40.);
+
+  std::cout << "Rounding as a torque" << std::endl;
+  std::vector<TorqueRow> rows = turned(own_curve);
+  for (TorqueRow &row : rows)
+    {
+      row.torque_Nmm *= 1e-8;
+      row.chuck_reaction[2] = -50.;
+    }
+  const ErrorEstimate noise(scene_of({}), rows, own_summary, coarser);
+  std::cout << "  " << noise.why_unknown << std::endl;
+  check("no error", noise.total, NAN);
+
+  std::cout << "Under a moment" << std::endl;
+  leave_coarser(turned(curve_of_coarser), summary_of_coarser);
+  const ErrorEstimate loaded =
+    estimate({"Chuck/Rotation z/Control=moment",
+              "Chuck/Rotation z/Value=40 * max(t - 1, 0)"});
+  report("  the moment has no error",
+         !loaded.members.contains("T_max_Nmm_error"));
+  report("  its angle has", loaded.members["theta_max_deg_error"] >= 1.25);
+
+  std::cout << "A flat peak" << std::endl;
+  const ErrorEstimate flat = estimate({},
+                                      {{{0, 0, 0, 0}},
+                                       {{1, 0, 0, 0}},
+                                       {{1.3, 3, 39.95, 0}},
+                                       {{1.5, 5, 40, 0}},
+                                       {{2, 10, 30, 0}}});
+  check("may be anywhere within the error of the steps",
+        number_in(flat.members, "theta_max_deg_error"),
+        2.);
 }
 
 
@@ -279,8 +344,8 @@ test_path()
                 summary_of_coarser);
   const ErrorEstimate errors = estimate({"Load steps/Path following=slip"});
   check("cells, by the peaks", errors.cells, 0.5 * 2. / 40.);
-  check("no steps", errors.steps, 0.);
-  check("the sum", errors.total, 0.025 + of_bodies);
+  check("steps, by chords", errors.steps, 25. / 40.);
+  check("the sum", errors.total, 0.025 + 0.625 + of_bodies);
   report("  no rows", errors.of_rows.empty());
 }
 
@@ -401,6 +466,7 @@ main()
 {
   set_up_libraries();
   test_parts();
+  test_other_scenes();
   test_finest_curve();
   test_jumps();
   test_path();

@@ -74,6 +74,43 @@ cells_of(const Scene &scene)
 
 
 
+/** Whether all numbers of cells but those around an axis, of files and of rigid
+ *  bodies differ in the same way. */
+bool
+differ_in_all(const Scene &scene, const Scene &other)
+{
+  bool fewer = true, more = true;
+  for (const auto &[own, others] : {std::pair(&scene.bone, &other.bone),
+                                    std::pair(&scene.implant, &other.implant)})
+    {
+      const auto numbers = [](const BodyParameters &body) {
+        std::vector<unsigned int> n(body.cells.begin(), body.cells.end());
+        if (body.is_fitted())
+          n.insert(n.begin(),
+                   body.fitted_cells.begin(),
+                   body.fitted_cells.end());
+        return n;
+      };
+      const auto before = numbers(*own), after = numbers(*others);
+      const bool has_a_bond_each =
+        own == &scene.implant &&
+        scene.interface.bonding.pattern == BondingPatternKind::random &&
+        scene.interface.bonding.correlation_length == 0.;
+      if (own->is_rigid() || own->shape == BodyShape::file || has_a_bond_each)
+        continue;
+      for (unsigned int k = scene.is_axisymmetric() ? 1 : 0; k < before.size();
+           ++k)
+        if (before[k] > 0)
+          {
+            fewer = fewer && after[k] < before[k];
+            more  = more && after[k] > before[k];
+          }
+    }
+  return fewer || more;
+}
+
+
+
 bool
 has(const std::vector<std::string> &names, const SceneEntry &entry)
 {
@@ -138,6 +175,8 @@ test_choices(const Changes &changes)
             << "  finer: " << (finer ? cells_in_words(*finer) : "none")
             << std::endl;
   report("  the coarser one chooses nothing", coarser->chosen.empty());
+  report("  it has fewer cells in each direction, or more",
+         differ_in_all(scene, *coarser));
   if (!finer)
     return;
   report("  the finer one has the same choices", finer->chosen == scene.chosen);
@@ -236,6 +275,8 @@ test_scenes()
   test_scene("Cells of the scene",
              stiff + Changes{"Bone/Cells=20, 20, 4", "Implant/Cells=4, 3"});
   test_scene("Cells of the bone alone", {"Bone/Cells=20, 20, 4"});
+  test_scene("One layer of cells, which cannot be fewer",
+             stiff + Changes{"Bone/Cells=20, 20, 1"});
   test_scene("Trilinear cells",
              stiff +
                Changes{"Bone/Element=trilinear", "Implant/Element=trilinear"});

@@ -175,6 +175,23 @@ namespace Debond
 
 
 
+    /** The run with a scene, if it is what would be the coarser one of that
+     * with more cells. */
+    bool
+    is_kept_as_coarser(const ResultDirectory &directory,
+                       const Scene           &scene,
+                       const Scene           &finer)
+    {
+      const auto coarser = coarser_scene(finer);
+      if (scene.load_steps.rows_are_planned() ||
+          cells_in_words(*coarser) != cells_in_words(scene))
+        return false;
+      keep_as_coarser(directory.path(), coarser->completed_parameters);
+      return true;
+    }
+
+
+
     void
     add_warning(const ResultDirectory &directory,
                 nlohmann::ordered_json summary,
@@ -244,12 +261,7 @@ namespace Debond
         if (!finer)
           return add_warning(directory, summary, text);
         say(scene, std::exchange(text, ""));
-        // the same as what would be the coarser run of the finer one
-        const auto next = coarser_scene(*finer);
-        has_coarser     = !scene.load_steps.rows_are_planned() &&
-                      cells_in_words(*next) == cells_in_words(scene);
-        if (has_coarser)
-          keep_as_coarser(directory.path(), next->completed_parameters);
+        has_coarser = is_kept_as_coarser(directory, scene, *finer);
         directory.write_parameters(finer->completed_parameters);
         error_before = error;
         before       = scene;

@@ -65,7 +65,8 @@ do for [format in "png svg"] {
     for [m=1:words(meshes)] NaN with points pointtype symbol[m] pointsize (1.6 * point) linecolor rgb "#444444" title mesh_name(m), \
     front using "seconds":"error_torque" with steps linewidth 1.5 linecolor rgb "#000000" title "best", \
     chosen using "seconds":"error_torque" with linespoints linewidth 3 pointtype 7 pointsize (2 * point) linecolor rgb red title "Accuracy", \
-    chosen using "seconds":"error_torque":(strcol("accuracy") . " %") with labels offset 0.8, 0.7 left textcolor rgb red notitle, \
+    for [below=0:1] chosen using ((column("accuracy") == 0.3) == below ? column("seconds") : NaN):"error_torque":(strcol("accuracy") . " %") \
+      with labels offset 0.8, (below ? -0.9 : 0.7) left textcolor rgb red notitle, \
     for [far=0:1] front using ((column("seconds") < 0.7 && int($0) % 2) == far ? column("seconds") : NaN):"error_torque":(sprintf("%d", $0 + 1)) \
       with labels offset (far ? -2.6 : -0.6), -0.7 right notitle
   unset label

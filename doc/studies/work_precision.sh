@@ -28,7 +28,7 @@ command -v gnuplot > /dev/null || { echo "work_precision.sh: gnuplot is needed t
 
 if [[ $draw_only == false ]]; then
   [[ -x $debond ]] || { echo "work_precision.sh: there is no $debond: build the program first, or set DEBOND" >&2; exit 1; }
-  echo "Some ten minutes if the machine is quiet, which it should be; one run needs 2 GB. Each line below is a variant,
+  echo "Some fifteen minutes if the machine is quiet, which it should be; one run needs 2 GB. Each line below is a variant,
 run with two threads."
   for study in closed_forms coulomb coulomb_splines ends splines quadratic ""; do
     echo "== $(date +%H:%M) work_precision${study:+_$study}"

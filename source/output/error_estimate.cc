@@ -88,15 +88,6 @@ namespace Debond
         return result;
       }
 
-      double
-      largest_load(const std::vector<TorqueRow> &rows) const
-      {
-        double largest = 0.;
-        for (const TorqueRow &row : rows)
-          largest = std::max(largest, std::abs(load(row)));
-        return largest;
-      }
-
       /** What is next to nothing beside all forces, or beside the size of the
        *  implant. */
       double
@@ -125,6 +116,15 @@ namespace Debond
       of(const TorqueRow &row) const
       {
         return is_position ? row.chuck_position[axes.position] : load(row);
+      }
+
+      double
+      largest(const std::vector<TorqueRow> &rows) const
+      {
+        double result = 0.;
+        for (const TorqueRow &row : rows)
+          result = std::max(result, std::abs(of(row)));
+        return result;
       }
 
       History
@@ -394,7 +394,7 @@ namespace Debond
     const auto   values =
       is_torsion ? summary :
                      summary.value("curve", nlohmann::ordered_json::object());
-    const double      top   = answer.largest_load(rows);
+    const double      top   = answer.largest(rows);
     const std::string place = is_torsion ? "theta_max_deg" : "at";
     // of rows whose share of the largest load is this, but for an error
     const auto grow =
@@ -437,11 +437,10 @@ namespace Debond
                          const double                  share)
   {
     const Answer  answer(scene);
-    const History history = answer.history_in(coarser);
-    column                = answer.column();
-    double largest = 0., largest_of_other = 0.;
-    for (const TorqueRow &row : rows)
-      largest = std::max(largest, std::abs(answer.of(row)));
+    const History history         = answer.history_in(coarser);
+    column                        = answer.column();
+    const double largest          = answer.largest(rows);
+    double       largest_of_other = 0.;
     for (const auto &[time, value] : history)
       largest_of_other = std::max(largest_of_other, std::abs(value));
     if (largest <= answer.noise(rows, scene.implant.characteristic_radius()))

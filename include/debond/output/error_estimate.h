@@ -11,7 +11,7 @@
 namespace Debond
 {
   /** Errors of a run, estimated by its difference from a coarser one of the
-   *  same scene (numerics.h). */
+   *  same scene (finer_scenes.h). */
   struct ErrorEstimate
   {
     static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -15,9 +15,11 @@ namespace Debond
   unsigned int
   fewer_cells(unsigned int n);
 
-  /** The scene with two thirds of the cells in every direction, and half the
-   *  planned steps: what its error is estimated by. Its results are in the
-   *  folder `coarser` of the scene's. None if both meshes are of files. */
+  /** The scene with two thirds of the cells in every direction, or with half as
+   *  many again where some cannot be fewer, and half the planned steps: what
+   * its error is estimated by. Quadratic elements of a file are trilinear. Its
+   *  results are in the folder `coarser` of the scene's. None if nothing of its
+   *  meshes can be changed. */
   std::optional<Scene>
   coarser_scene(const Scene &scene);
 

@@ -121,7 +121,7 @@ namespace Debond
      *  entries. */
     std::vector<SceneEntry> changed_entries;
     /** Full names of those whose values were chosen for the accuracy, see
-     *  numerics.h; and notes them in completed_parameters, too. */
+     *  numerics.cc; and notes them in completed_parameters, too. */
     std::vector<std::string> chosen;
     /** What is to be chosen: entries that the scene leaves at `auto`. */
     std::vector<SceneEntry>

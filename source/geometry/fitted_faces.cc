@@ -213,6 +213,28 @@ namespace Debond
 
 
   NurbsSurface
+  NurbsSurface::fitted_cap(const double       R,
+                           const double       cap_radius,
+                           const double       contact_radius,
+                           const unsigned int n_around,
+                           const unsigned int n_rings)
+  {
+    std::vector<NurbsSurface> patches;
+    add_disk(contact_radius, n_around, n_rings, patches);
+    if (contact_radius < R)
+      add_ring(circle(contact_radius),
+               circle(R),
+               graded_breaks(n_rings, rim_exponent),
+               breaks_around(n_around),
+               patches);
+    for (NurbsSurface &patch : patches)
+      patch = patch.raised_to_sphere(cap_radius);
+    return joined(patches);
+  }
+
+
+
+  NurbsSurface
   NurbsSurface::fitted_ring(const double       R,
                             const double       hole,
                             const unsigned int n_around,

@@ -88,48 +88,66 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** Values of all functions of a direction at its Greville abscissae. */
+    Eigen::MatrixXd
+    collocation(const KnotVector &knots)
+    {
+      const std::vector<double> u = knots.greville_abscissae();
+      Eigen::MatrixXd           B = Eigen::MatrixXd::Zero(u.size(), u.size());
+      for (unsigned int i = 0; i < u.size(); ++i)
+        {
+          const unsigned int    span   = knots.span_of(u[i]);
+          const BernsteinValues values = knots.evaluate(span, u[i]);
+          for (unsigned int k = 0; k <= knots.degree(); ++k)
+            B(i, knots.first_basis_function(span) + k) = values.B[k];
+        }
+      return B;
+    }
+  } // namespace
+
+
+
   // With W the sum of all w_A N_A, the products W x and W z are B-splines whose
   // coefficients are w_A x_A and w_A z_A: the interpolation is a tensor product
   // although the weights are none.
+  NurbsSurface
+  NurbsSurface::raised_to_sphere(const double radius) const
+  {
+    const std::array<Eigen::MatrixXd, 2> B{
+      {collocation(knot_vectors[0]), collocation(knot_vectors[1])}};
+    using Table      = Eigen::ArrayXXd; // of all control points or abscissae
+    const auto table = [&B](const auto &row) -> Table {
+      return row.reshaped(B[0].rows(), B[1].rows()).array();
+    };
+    const Table w = table(Eigen::VectorXd::Map(weight.data(), weight.size()));
+    const auto  interpolant = [&B](const Table &coefficients) -> Table {
+      return (B[0] * coefficients.matrix() * B[1].transpose()).array();
+    };
+    const Table W = interpolant(w);
+    const Table r_squared =
+      (interpolant(w * table(points.row(0))) / W).square() +
+      (interpolant(w * table(points.row(1))) / W).square();
+    const Table height = r_squared.unaryExpr([radius](const double r2) {
+      return height_on_sphere(std::min(radius, std::sqrt(r2)), radius);
+    });
+    const Eigen::MatrixXd columns = B[0].lu().solve((W * height).matrix());
+    const Table           z =
+      B[1].lu().solve(columns.transpose()).transpose().array() / w;
+    NurbsSurface result  = *this;
+    result.points.row(2) = z.reshaped().transpose();
+    return result;
+  }
+
+
+
   NurbsSurface
   NurbsSurface::cap(const double       R,
                     const double       cap_radius,
                     const unsigned int n)
   {
-    assert(cap_radius > R);
-
-    NurbsSurface              result = disk(R, n);
-    const KnotVector         &knots  = result.knot_vectors[0];
-    const std::vector<double> u      = knots.greville_abscissae();
-    const unsigned int        size   = u.size();
-    Eigen::MatrixXd           B      = Eigen::MatrixXd::Zero(size, size);
-    for (unsigned int i = 0; i < size; ++i)
-      {
-        const unsigned int    span   = knots.span_of(u[i]);
-        const BernsteinValues values = knots.evaluate(span, u[i]);
-        for (unsigned int k = 0; k <= knots.degree(); ++k)
-          B(i, knots.first_basis_function(span) + k) = values.B[k];
-      }
-
-    using Table = Eigen::ArrayXXd; // of all control points or abscissae
-    using Map   = Eigen::Map<const Table>;
-    const Map  w(result.weight.data(), size, size);
-    const auto interpolant = [&B](const Table &coefficients) -> Table {
-      return (B * coefficients.matrix() * B.transpose()).array();
-    };
-    const Eigen::VectorXd x = result.points.row(0), y = result.points.row(1);
-    const Table           W = interpolant(w);
-    const Table           r_squared =
-      (interpolant(w * Map(x.data(), size, size)) / W).square() +
-      (interpolant(w * Map(y.data(), size, size)) / W).square();
-    const Table height = r_squared.unaryExpr([&](const double r2) {
-      return height_on_sphere(std::min(R, std::sqrt(r2)), cap_radius);
-    });
-    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(B);
-    const Eigen::MatrixXd columns = solver.solve((W * height).matrix());
-    const Table z = solver.solve(columns.transpose()).transpose().array() / w;
-    result.points.row(2) = z.reshaped().transpose();
-    return result;
+    return disk(R, n).raised_to_sphere(cap_radius);
   }
 
 

@@ -126,6 +126,41 @@ namespace Debond
 
 
 
+    /** Where the contact of a cap ends under its largest press [mm]: Hertz's
+     *  a^2 = R d and F = 4 E* a^3 / (3 R) with the spring eps_n in between, up
+     *  to 6 % of the load (2 % of a) from the solution of both. */
+    double
+    contact_radius_of(const Scene &scene)
+    {
+      const auto compliance = [](const BodyParameters &body) {
+        return body.is_rigid() ?
+                 0. :
+                 (1. - std::pow(body.poisson_ratio, 2)) / body.young_modulus;
+      };
+      const double E_star =
+                     1. / (compliance(scene.bone) + compliance(scene.implant)),
+                   R   = scene.implant.cap_radius,
+                   eps = scene.interface.normal_penalty;
+      const bool is_force =
+        scene.chuck.component[ChuckComponent::translation_z].loaded;
+      const auto press = [&](const double a) {
+        const double k = eps * a / E_star, a_2 = a * a / R;
+        return is_force ? E_star * a * a_2 / (0.75 + 4. / (M_PI * k)) :
+                          a_2 * (k + 1.) / (k + 2.);
+      };
+      const auto   values = scene.sampled_values(ChuckComponent::translation_z);
+      const double most   = -*std::min_element(values.begin(), values.end());
+      double       low = 0., high = scene.implant.radius;
+      for (unsigned int i = 0; i < 50; ++i)
+        {
+          const double middle                 = 0.5 * (low + high);
+          (press(middle) < most ? low : high) = middle;
+        }
+      return high;
+    }
+
+
+
     /** A flat face on a block of bone. Of a body whose cells are set nothing
      *  else of them is chosen. */
     void
@@ -147,8 +182,7 @@ namespace Debond
           choice.choose("Expert / Bone", "Layer grading", "2");
         }
       const bool is_ring     = implant.shape == BodyShape::ring,
-                 follows_rim = is_fitted &&
-                               (implant.shape == BodyShape::coin || is_ring) &&
+                 follows_rim = is_fitted && implant.shape != BodyShape::block &&
                                implant.contact_surface == SurfaceKind::nurbs;
       choice.choose("Implant",
                     "Cells",
@@ -156,6 +190,10 @@ namespace Debond
                     is_ring                           ? "12, 2, 2" :
                     implant.shape == BodyShape::block ? "6, 3" :
                                                         "3, 3");
+      if (follows_rim && implant.shape == BodyShape::cap)
+        choice.choose("Expert / Implant",
+                      "Contact radius",
+                      to_text(contact_radius_of(scene), 6));
       choice.choose("Bone", "Element", "spline");
       choice.choose("Implant",
                     "Element",

@@ -70,24 +70,32 @@ namespace Debond
     // Torque over angle where the chuck may turn about z, else the load and the
     // position of the component that it moves most.
     // What is moved comes before what is loaded. An angle counts as what it
-    // moves at the rim.
+    // moves at the rim, and a press not where another way follows it.
     CurveAxes
-    usual_curve(const Scene &scene)
+    usual_curve(const Scene &scene, const bool with_press = false)
     {
+      const std::vector<double> times = scene.load_steps.sample_times();
+      const bool                skips = !with_press && scene.is_press(0);
+      const auto                begin = std::lower_bound(times.begin(),
+                                          times.end(),
+                                          scene.load_steps.times[skips]) -
+                         times.begin();
       std::array<double, ChuckParameters::n_components> way;
       for (unsigned int k = 0; k < way.size(); ++k)
         {
           const std::vector<double> values = scene.sampled_values(k);
           const auto [least, most] =
-            std::minmax_element(values.begin(), values.end());
+            std::minmax_element(values.begin() + begin, values.end());
           way[k] = (is_rotation(k) ?
                       scene.implant.characteristic_radius() * M_PI / 180. :
                       1.) *
                    (scene.chuck.component[k].loaded ? 1e-9 : 1.) *
                    (*most - *least);
         }
-      const auto         furthest = std::max_element(way.begin(), way.end());
-      const unsigned int k        = furthest - way.begin();
+      const auto furthest = std::max_element(way.begin(), way.end());
+      if (skips && *furthest == 0.)
+        return usual_curve(scene, true);
+      const unsigned int k = furthest - way.begin();
       return way[ChuckComponent::rotation_z] > 0. || *furthest == 0. ?
                CurveAxes() :
                CurveAxes{k, k};

@@ -269,7 +269,8 @@ namespace Debond
         "measured curves are compared with it and fitted to it. `auto': "
         "Rotation z, Moment z where the scene turns the chuck about z, or "
         "where Reference curve is of angles and torques only, else position "
-        "and load of the component that it moves most.");
+        "and load of the component that it moves most, after a first press if "
+        "more follows.");
       table.add(
         "Reference curve",
         output.reference_curve,

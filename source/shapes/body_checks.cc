@@ -98,9 +98,11 @@ namespace Debond
       const std::string fitted = "cells that are fitted to the rim ";
       refuse(is_bone ?
                body.shape != BodyShape::block :
-               body.shape != BodyShape::coin && body.shape != BodyShape::ring,
+               body.shape != BodyShape::coin && body.shape != BodyShape::ring &&
+                 body.shape != BodyShape::cap,
              "Cells",
-             fitted + "are those of a " + (is_bone ? "block" : "coin or ring") +
+             fitted + "are those of a " +
+               (is_bone ? "block" : "coin, cap or ring") +
                ": expected numbers");
       refuse(body.fitted_cells[0] % 4 != 0,
              "Cells",

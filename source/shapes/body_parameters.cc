@@ -224,6 +224,13 @@ namespace Debond
               "convex towards the bone; more than Radius. The face meets the "
               "sphere at the Greville points of its cells; between them its "
               "error is of third order in their size.");
+    table.add("Expert / Contact radius",
+              contact_radius,
+              AllowedValues(allowed_length).or_word_for("auto", "0"),
+              "Radius [mm] of the circle within a cap that fitted cells of cap "
+              "and bone follow: where contact ends. `auto': with Accuracy as "
+              "for half spaces and the normal stiffness under the largest "
+              "press, else Radius.");
     table.add("Size",
               size,
               Allowed::list(allowed_length, 3, 3).without_default(),
@@ -235,8 +242,8 @@ namespace Debond
       "coin or cap n across the disk and m along the axis. Of a pin and a "
       "ring: around (8 or more, of a solid one 8, 12, ...), radially and "
       "along the axis. Of a cup: as Bone / Cells of a cavity. `fitted a, i, l': "
-      "cells of a coin or a ring that follow its rim, as Bone / Cells. `fitted': 12, "
-      "5, 5. `auto': as Accuracy needs, without it 3, 2.");
+      "cells of a coin, cap or ring that follow its rim, as Bone / Cells; of a "
+      "cap i more beyond its contact radius. `fitted': 12, 5, 5. `auto': as Accuracy needs, without it 3, 2.");
     declare_material(table, false);
     table.leave_subsection();
   }

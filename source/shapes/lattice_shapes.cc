@@ -63,6 +63,10 @@ namespace Debond
              "Cap radius",
              "a cap is flatter than a hemisphere: expected more than Radius, " +
                to_text(body.radius) + " mm");
+      refuse(body.contact_radius > body.radius,
+             "Contact radius",
+             "cells lie within the cap: expected at most Radius, " +
+               to_text(body.radius) + " mm");
       refuse(rise(body) >= body.height,
              "Height",
              "the rim of the cap is " + to_text(rise(body)) +
@@ -72,7 +76,13 @@ namespace Debond
     NurbsSurface
     face_of_cap(const BodyParameters &body)
     {
-      return NurbsSurface::cap(body.radius, body.cap_radius, body.cells[0]);
+      return body.is_fitted() ?
+               NurbsSurface::fitted_cap(body.radius,
+                                        body.cap_radius,
+                                        body.rim[0],
+                                        body.fitted_cells[0],
+                                        body.fitted_cells[1]) :
+               NurbsSurface::cap(body.radius, body.cap_radius, body.cells[0]);
     }
 
 
@@ -115,7 +125,9 @@ namespace Debond
   void
   BodyParameters::take_rim(const BodyParameters &implant)
   {
-    rim  = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
+    rim = {{0.5 * implant.width(0), 0.5 * implant.width(1)}};
+    if (implant.shape == BodyShape::cap && implant.contact_radius > 0.)
+      rim = {{implant.contact_radius, implant.contact_radius}};
     hole = implant.shape == BodyShape::ring ? implant.inner_radius : 0.;
     if (is_fitted())
       cells[0] = cells[1] = std::ceil(std::sqrt(n_fitted_elements()));

@@ -308,6 +308,10 @@ namespace Debond
                          const StepState &state,
                          const unsigned int)
   {
+    // A press in one step goes on to forces that a longer trial has shown:
+    // errors are a share of those, not of a contact that has just begun.
+    if (parameters.steps[phase - 1] == 1 && phase < parameters.steps.size())
+      grow(state);
     if (step.time != step.whole_time)
       {
         middle     = node_of(state);

@@ -294,6 +294,43 @@ test_scenes()
 
 
 
+// Loads of caps for which an independent solution, rings of pressure on a half
+// space with springs on it, has the contact end at 1.5 mm: depths over a^2/R
+// and forces over E* a^3/R, by k = eps_n a/E*.
+void
+test_contact_radius()
+{
+  struct Reference
+  {
+    double k, depth, force;
+  };
+  std::cout << "Where the contact of a cap ends" << std::endl;
+  const double nu = 0.25, E_star = 9000. / (1. - nu * nu), a = 1.5, R = 40.;
+  for (const Reference &at : {Reference{1., 0.6711, 0.4720},
+                              {10., 0.8992, 1.0829},
+                              {100., 0.9821, 1.2915}})
+    for (const bool is_force : {false, true})
+      {
+        const double load =
+          a * a / R * (is_force ? E_star * a * at.force : at.depth);
+        const Scene scene = scene_of(
+          {"Implant/Shape=cap",
+           "Implant/Cap radius=" + std::to_string(R),
+           "Implant/Material=rigid",
+           "Bone/Young modulus=9000",
+           "Bone/Poisson ratio=" + std::to_string(nu),
+           "Interface/Normal stiffness=" + std::to_string(at.k * E_star / a),
+           std::string("Chuck/Press/Control=") +
+             (is_force ? "force" : "displacement"),
+           "Chuck/Press/Value=" + std::to_string(load) + " * min(t, 1)"});
+        report("  within 3 %",
+               scene.bone.is_fitted() && scene.implant.is_fitted() &&
+                 std::abs(scene.implant.contact_radius / a - 1.) < 0.03);
+      }
+}
+
+
+
 // Half the planned steps; and where its results are.
 void
 test_coarser_scene()
@@ -423,6 +460,7 @@ main()
   set_up_libraries();
   test_numbers_of_cells();
   test_scenes();
+  test_contact_radius();
   test_coarser_scene();
   test_same_scenes();
   test_large_strains();

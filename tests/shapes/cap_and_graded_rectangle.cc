@@ -113,6 +113,23 @@ check_cap()
          1e-6);
   report("  distance of the rim from the circle", errors[3].rim, 1e-14);
 
+  std::vector<double> fitted;
+  for (const unsigned int n : {2, 4, 8})
+    {
+      const NurbsSurface cap =
+        NurbsSurface::fitted_cap(R, sphere_radius, 0.4 * R, 8 * n, 3 * n);
+      fitted.push_back(0.);
+      for (const auto &point : surface_quadrature(cap, dealii::QGauss<1>(8)))
+        grow(fitted.back(),
+             std::abs((interpolate(point.basis, cap.control_points()) -
+                       Eigen::Vector3d(0, 0, sphere_radius))
+                        .norm() -
+                      sphere_radius));
+    }
+  for (const unsigned int k : {0, 1})
+    report_order(
+      "  fitted, distance from the sphere", fitted[k], fitted[k + 1], 2.8, 3.6);
+
   double flat = 0;
   for (unsigned int n : {1, 2, 5})
     {

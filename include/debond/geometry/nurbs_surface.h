@@ -292,13 +292,26 @@ namespace Debond
                      unsigned int n_rings,
                      unsigned int n_outside);
 
-    /** The disk with the heights of a sphere of radius @p cap_radius > @p R
-     *  that touches z = 0 at the origin from above. The control points stand
-     *  over those of the disk; the surface meets the sphere at the Greville
-     *  abscissae and leaves it by O(1/n^3) in between (one rational biquadratic
-     *  patch over the disk cannot be a part of a sphere). */
+    /** This patch of the plane z = 0 with the heights of a sphere of that
+     *  @p radius that touches z = 0 at the origin from above. The control
+     *  points stand over those of the patch; the surface meets the sphere at
+     *  the Greville abscissae and leaves it by the third order of the elements
+     *  in between (rational biquadratic functions over a disk cannot be a part
+     *  of a sphere). */
+    NurbsSurface
+    raised_to_sphere(double radius) const;
+
+    /** The disk raised to a sphere of radius @p cap_radius > @p R. */
     static NurbsSurface
     cap(double R, double cap_radius, unsigned int n);
+    /** The same over a fitted disk of the radius @p contact_radius, and around
+     *  it, where that is less than @p R, @p n_rings to the rim. */
+    static NurbsSurface
+    fitted_cap(double       R,
+               double       cap_radius,
+               double       contact_radius,
+               unsigned int n_around,
+               unsigned int n_rings);
 
     /** The rectangle [-lx/2,lx/2] x [-ly/2,ly/2] in z = 0 of the given degree
      *  (2 or 1) with n1 x n2 elements, weights 1, open knot vectors and

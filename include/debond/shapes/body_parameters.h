@@ -77,7 +77,9 @@ namespace Debond
     double       pitch = 1, thread_depth = 0.2; ///< screw [mm]
     unsigned int starts     = 1;                ///< screw
     double       cap_radius = 50;               ///< of the sphere [mm]
-    std::string  mesh_file;
+    /** Of a cap, that cells are fitted to [mm]; 0: its radius. */
+    double      contact_radius = 0;
+    std::string mesh_file;
     /** Of a shape that is no lattice; see make_mesh(). */
     std::shared_ptr<const BodyMesh> mesh;
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
@@ -85,7 +87,8 @@ namespace Debond
     std::array<unsigned int, 3> cells{{15, 15, 2}};
     /** Of `Cells = fitted ...`: around the rim, from the core to it, from it to
      *  the sides of a bone; below a ring as many inside its hole as in its
-     *  wall. `cells` are those of a lattice with as many. */
+     *  wall; of a cap as many beyond its contact radius. `cells` are those of a
+     * lattice with as many. */
     std::array<unsigned int, 3> fitted_cells{{0, 0, 0}};
     ElementKind                 element         = ElementKind::trilinear;
     double                      lateral_grading = 1; ///< bone
@@ -141,7 +144,10 @@ namespace Debond
       const double quarter = fitted_cells[0] / 4,
                    core    = shape == BodyShape::ring ? 0. : quarter,
                    parts   = core > 0. && hole > 0. ? 2. : 1.,
-                   outside = inside ? 0. : fitted_cells[2];
+                   beyond  = shape == BodyShape::cap && rim[0] < radius ?
+                               fitted_cells[1] :
+                               fitted_cells[2],
+                   outside = inside ? 0. : beyond;
       return quarter * (core + 4. * (parts * fitted_cells[1] + outside));
     }
     /** Notes the rims of an implant, which may be the body itself. */

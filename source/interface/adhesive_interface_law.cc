@@ -89,10 +89,11 @@ namespace Debond
       // is that at the end of the step: opening damages it by kappa, slip by s,
       // and each softens what the other one meets.
       InterfaceResponse
-      respond(const PointStart &start,
-              const double      g_n,
-              const double      distance) const override
+      answer(const PointStart &start,
+             const double      gap,
+             const double      distance) const override
       {
+        const double g_n = gap_left(start, gap, distance);
         // kappa follows the gap at the end of the step while that grows: the
         // damage is implicit, as is that by slip, so that no step lags behind
         // the one before.
@@ -113,10 +114,11 @@ namespace Debond
           }
         else
           {
-            result.pressure        = -stiffness * g_n;
-            result.pressure_by_gap = -stiffness;
+            const BoneLayer::Push push = this->push(start, gap, distance);
+            result.pressure            = push.pressure;
+            result.pressure_by_gap     = push.by_gap;
             if (g_n < 0.)
-              result.energy = 0.5 * stiffness * g_n * g_n;
+              result.energy = push.energy;
           }
         // Pressure and pull have the one value 0 at g_n = 0, but not one slope:
         // eps_n on one side, phi K on the other.
@@ -156,7 +158,7 @@ namespace Debond
       {
         return holds(start.history, start.phi_0) ?
                  std::numeric_limits<double>::infinity() :
-                 0.;
+                 InterfaceLaw::reach(start, 0.);
       }
 
       // The first closing is what glues the faces: a gap before that has
@@ -168,7 +170,8 @@ namespace Debond
       {
         PointHistory result = InterfaceLaw::advance(start, g_n, distance);
         if (start.history.joined)
-          result.damage = std::max(start.history.damage, g_n);
+          result.damage =
+            std::max(start.history.damage, gap_left(start, g_n, distance));
         // Beyond gone() the bond is given up for good: what is left of the
         // exponential would hold points together that no instrument could tell
         // from open ones.
@@ -193,17 +196,20 @@ namespace Debond
       // time the mean: exact if one of them rests, never negative.
       PointWork
       work(const PointStart &start,
-           const double      g_n,
+           const double      gap,
            const double      distance) const override
       {
         // Per area of the point [N/mm]. Friction and damage are accounted for
         // apart, so that D_adh is the part that broke the bond.
-        const double g_start = start.history.normal_gap;
-        PointWork    result;
+        const double before_step = start.history.normal_gap,
+                     g_start     = gap_left(start, before_step, 0.),
+                     g_n         = gap_left(start, gap, distance);
+        PointWork result;
         if (!start.frictionless && distance > 0.)
           {
-            const double before   = integrated_limit(start, g_start, distance),
-                         after    = integrated_limit(start, g_n, distance);
+            const double before =
+                           integrated_limit(start, before_step, distance),
+                         after    = integrated_limit(start, gap, distance);
             result.friction       = 0.5 * (before + after);
             result.friction_bound = 0.5 * std::abs(before - after);
           }
@@ -221,10 +227,10 @@ namespace Debond
           }
         result.adhesive = result.damage;
         if (!start.frictionless)
-          for (const auto &[gap, slid] :
-               {std::pair(g_start, 0.), std::pair(g_n, distance)})
+          for (const auto &[at, slid] :
+               {std::pair(before_step, 0.), std::pair(gap, distance)})
             {
-              const InterfaceResponse end = respond(start, gap, slid);
+              const InterfaceResponse end = answer(start, at, slid);
               const double            unbonded =
                 end.pressure > 0. ?
                              friction->limit(start, 0., end.pressure, slid).value :
@@ -289,7 +295,9 @@ namespace Debond
         // part of the gap only: faces that are pressed have none. A pull that
         // would fall faster than the bodies unload so takes a time that grows
         // with eta.
-        const double before = std::max(0., start.history.normal_gap),
+        const double before =
+                       std::max(0.,
+                                gap_left(start, start.history.normal_gap, 0.)),
                      moved  = before < PointHistory::far ? g_n - before : 0.,
                      opened = std::max(0., moved);
         if (!(start.duration > 0.) || std::min(g_n, moved) <= -touching * g_0)
@@ -314,7 +322,7 @@ namespace Debond
         double                            mean = 0.;
         for (unsigned int q = 0; q < simpson.size(); ++q)
           mean += simpson.weight(q) *
-                  respond(start, g_n, distance * simpson.point(q)[0]).limit;
+                  answer(start, g_n, distance * simpson.point(q)[0]).limit;
         return mean * distance;
       }
 

@@ -31,12 +31,14 @@ namespace Debond
     master.surface->evaluate(xi, basis);
     contract(basis, *master.positions, geometry);
     const MasterNormal of_master(geometry, master.outward_sign);
-    const Vector3d    &n      = of_master.n;
-    const Vector3d     whole  = x - geometry.y;
-    const double       g_n    = n.dot(whole);
-    const Vector3d     along  = whole - g_n * n;
-    const double       length = along.norm();
-    const Vector3d direction  = length > 0. ? Vector3d(along / length) : along;
+    const Vector3d    &n = of_master.n;
+    // bone that has been crushed lies deeper
+    const double   crushed   = start.history.crushed;
+    const Vector3d whole     = x - geometry.y + crushed * n;
+    const double   g_n       = n.dot(whole);
+    const Vector3d along     = whole - g_n * n;
+    const double   length    = along.norm();
+    const Vector3d direction = length > 0. ? Vector3d(along / length) : along;
     // The bond knows the gap by two numbers, across and along [mm], and so has
     // no preferred direction in the face.
     const CohesiveResponse response = law.cohesion->hold(start, g_n, length);
@@ -55,18 +57,19 @@ namespace Debond
     ddamage << response.damage_by_normal * n.transpose() +
                  response.damage_by_tangential * direction.transpose(),
       (response.damage_by_normal * whole.transpose() -
-       response.damage_by_tangential * g_n * direction.transpose()) *
+       response.damage_by_tangential * (g_n - crushed) *
+         direction.transpose()) *
         dn;
     // The gap that bears, by g, a_1 and a_2: all of g, or its part in the
     // tangent plane, (1 - n n^T) g, which changes as the normal turns. Then t =
     // k bears with the k of the damage: rank one is added by domega.
-    Eigen::Matrix<double, 3, 9> dbears = Eigen::Matrix<double, 3, 9>::Zero();
-    dbears.leftCols<3>()               = Matrix3d::Identity();
+    Eigen::Matrix<double, 3, 9> dbears;
+    dbears << Matrix3d::Identity(), crushed * dn;
     if (!opens)
       {
         dbears.leftCols<3>() -= n * n.transpose();
-        dbears.rightCols<6>() =
-          -(n * whole.transpose() + g_n * Matrix3d::Identity()) * dn;
+        dbears.rightCols<6>() -=
+          (n * whole.transpose() + g_n * Matrix3d::Identity()) * dn;
       }
     dt = response.stiffness * dbears +
          response.stiffness_by_damage * bears * ddamage;

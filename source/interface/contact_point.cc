@@ -255,9 +255,10 @@ namespace Debond
         {
           result.state = start;
           result.state.status =
+            end.response.shears ? PointStatus::shears :
             end.response.pressure < 0. && end.response.limit == 0. ?
-              PointStatus::pulled :
-              PointStatus::slip;
+                                  PointStatus::pulled :
+                                  PointStatus::slip;
           problem.report(result);
           result.failed = result.negative_friction = end.response.limit < 0.;
           return;
@@ -326,6 +327,7 @@ namespace Debond
       x,
       law.joint->begin(start, phi_0, mode.duration, mode.frictionless),
       viscous_stiffness(law, mode)};
+    point.start.viscous = point.viscous;
     if (law.joint->cohesion)
       point.start.damage = mode.damage;
     const bool              closed   = is_closed(point, g_n, 0.);

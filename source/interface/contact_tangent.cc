@@ -249,9 +249,9 @@ namespace Debond
           continue;
         area += point.JxW;
         result.value +=
-          point.JxW * (by_damage ?
-                         length * trial.state.damage :
-                         trial.state.slip + law.joint->opened(trial.state));
+          point.JxW * (by_damage ? length * trial.state.damage :
+                                   law.joint->slid(trial.state) +
+                                     law.joint->opened(trial.state));
         if (!shares.empty() && shares[q].holds)
           PointMotion(point, shares[q].basis, slave)
             .scatter(as_vectors(point.JxW * length *

@@ -66,16 +66,15 @@ namespace Debond
       // have climbed, Eqs. (28) and (30); as they climb the pressure changes
       // with the slip, too, and the limit with it.
       InterfaceResponse
-      respond(const PointStart &start,
-              const double      g_n,
-              const double      distance) const override
+      answer(const PointStart &start,
+             const double      g_n,
+             const double      distance) const override
       {
         // h is taken at the end of the step, with the distance that the local
         // problem tries: dp/dd = eps_n h' then enters its derivatives, and
         // sliding under a held gap raises the pressure.
-        const double      slip = slipped(start, distance);
-        InterfaceResponse result =
-          InterfaceLaw::respond(start, g_n - height(slip), distance);
+        InterfaceResponse result = InterfaceLaw::answer(start, g_n, distance);
+        const double      slip   = slipped(start, distance);
         if (!start.frictionless && distance >= 0.)
           {
             const double rise       = h_inf / l * std::exp(-slip / l); // dh/dd
@@ -85,6 +84,15 @@ namespace Debond
         return result;
       }
 
+      double
+      gap_left(const PointStart &start,
+               const double      g_n,
+               const double      distance) const override
+      {
+        return InterfaceLaw::gap_left(start, g_n, distance) -
+               height(slipped(start, distance));
+      }
+
       // Only a point that is closed climbs on its way.
       double
       reach(const PointStart &start, const double distance) const override
@@ -92,7 +100,8 @@ namespace Debond
         // [mm]: faces that have climbed by h touch up to the gap h
         return height(start.history.normal_gap < PointHistory::far ?
                         slipped(start, distance) :
-                        start.history.slip);
+                        start.history.slip) +
+               InterfaceLaw::reach(start, distance);
       }
 
       // The friction of both ends, and the lift by the mean pressure: a
@@ -102,16 +111,14 @@ namespace Debond
            const double      g_n,
            const double      distance) const override
       {
-        // The base class integrates friction between two pressures: those of
-        // the gaps that are left of both ends, before and after the climb.
-        PointStart before = start;
-        before.history.normal_gap -= height(start.history.slip);
-        const double slip = slipped(start, distance), end = g_n - height(slip);
-        PointWork    result = InterfaceLaw::work(before, end, distance);
+        PointWork  result   = InterfaceLaw::work(start, g_n, distance);
+        const auto pressure = [&](const double gap, const double slid) {
+          return std::max(0., push(start, gap, slid).pressure);
+        };
         result.lift =
-          0.5 * stiffness *
-          (std::max(0., -before.history.normal_gap) + std::max(0., -end)) *
-          (height(slip) - height(start.history.slip));
+          0.5 *
+          (pressure(start.history.normal_gap, 0.) + pressure(g_n, distance)) *
+          (height(slipped(start, distance)) - height(start.history.slip));
         return result;
       }
 

@@ -1,6 +1,8 @@
 #include <debond/interface/interface_law.h>
 #include <debond/support/input_error.h>
 
+#include <boost/math/tools/toms748_solve.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -47,21 +49,87 @@ namespace Debond
   // compliance 1/eps_n is a property of the interface, not a numerical device:
   // in the paper's test it is most of the compliance of the whole.
   InterfaceResponse
-  InterfaceLaw::respond(const PointStart &start,
-                        const double      g_n,
-                        const double      distance) const
+  InterfaceLaw::answer(const PointStart &start,
+                       const double      g_n,
+                       const double      distance) const
   {
-    InterfaceResponse result;
-    result.pressure        = -stiffness * g_n;
-    result.pressure_by_gap = -stiffness;
-    result.energy          = 0.5 * stiffness * g_n * g_n; // the potential
+    const BoneLayer::Push push = this->push(start, g_n, distance);
+    InterfaceResponse     result;
+    result.pressure        = push.pressure;
+    result.pressure_by_gap = push.by_gap;
+    result.energy          = push.energy; // the potential
     result.resists         = result.pressure > 0.;
     if (result.resists)
       rub(start,
           distance,
-          Changing(result.pressure, -stiffness, 0.),
+          Changing(result.pressure, result.pressure_by_gap, 0.),
           bond_after(start, distance),
           result);
+    return result;
+  }
+
+
+
+  // No interface carries more shear than the bone beside it. What friction and
+  // viscosity hold against the distance d_f that the faces slide is at most
+  // tau_b; the rest of the distance is sliding in the bone, which leaves g_s as
+  // it is, unless that is to wear the bond, too. Where friction alone holds
+  // tau_b without sliding d_f is 0.
+  InterfaceResponse
+  InterfaceLaw::respond_in_bone(const PointStart &start,
+                                const double      g_n,
+                                const double      distance) const
+  {
+    const double tau_b = bone.shear_strength;
+    const auto   total = [&](const InterfaceResponse &at, const double d) {
+      return at.limit + (at.resists ? start.viscous * d : 0.);
+    };
+    InterfaceResponse result        = answer(start, g_n, distance);
+    result.rubbed                   = distance;
+    const InterfaceResponse at_rest = answer(start, g_n, 0.);
+    const bool              holds   = at_rest.limit >= tau_b;
+    if (total(result, distance) <= tau_b &&
+        (!holds || bone.shear_wears_bond || distance < 0.))
+      return result;
+    if (distance < 0.) // it cannot; see rub()
+      {
+        result.limit        = tau_b;
+        result.limit_by_gap = result.limit_by_slip = 0.;
+        return result;
+      }
+    double rubbed = 0.;
+    if (!holds)
+      {
+        std::uintmax_t iterations = 100;
+        rubbed                    = boost::math::tools::toms748_solve(
+                   [&](const double d) {
+                     return total(answer(start, g_n, d), d) - tau_b;
+                   },
+                   0.,
+                   distance,
+                   at_rest.limit - tau_b,
+                   total(result, distance) - tau_b,
+                   boost::math::tools::eps_tolerance<double>(),
+                   iterations)
+                   .first;
+      }
+    if (!bone.shear_wears_bond)
+      {
+        result = answer(start, g_n, rubbed);
+        // the faces slide as far as friction takes to reach tau_b
+        const double slope =
+          result.limit_by_slip + (result.resists ? start.viscous : 0.);
+        if (rubbed > 0. && !result.resists) // as far as viscosity sets in
+          result.pressure_by_gap = 0.;
+        else if (rubbed > 0. && slope != 0.)
+          result.pressure_by_gap -=
+            result.pressure_by_slip * result.limit_by_gap / slope;
+        result.pressure_by_slip = 0.;
+      }
+    result.shears = true;
+    result.rubbed = rubbed;
+    result.limit  = tau_b - (result.resists ? start.viscous * rubbed : 0.);
+    result.limit_by_gap = result.limit_by_slip = result.limit_by_damage = 0.;
     return result;
   }
 
@@ -139,12 +207,16 @@ namespace Debond
     history.normal_gap   = g_n;
     // pressed together once, the faces of a law with strength in tension are
     // bonded
-    history.joined = history.joined || g_n < 0.;
+    const double gap = gap_left(start, g_n, distance);
+    history.joined   = history.joined || gap < 0.;
+    history.crushed  = push(start, g_n, distance).crushed;
     if (!start.frictionless)
       {
         history.slip     = start.history.slip + distance;
         history.internal = friction->advance(start, distance);
       }
+    if (history.crushed > start.history.crushed)
+      history.crushed_at = history.slip;
     return history;
   }
 
@@ -178,11 +250,13 @@ namespace Debond
     if (start.frictionless || distance == 0.)
       return result;
     // [N/mm] at the gaps of both ends; an open end has rubbed at no pressure
-    const auto at = [&](const double gap) {
-      return gap < 0. ? friction->work(start, -stiffness * gap, distance) :
-                        PointWork();
+    const auto at = [&](const double pressure) {
+      return pressure > 0. ? friction->work(start, pressure, distance) :
+                             PointWork();
     };
-    const PointWork first = at(start.history.normal_gap), last = at(g_n);
+    const PointWork first =
+                      at(push(start, start.history.normal_gap, 0.).pressure),
+                    last  = at(push(start, g_n, distance).pressure);
     result.friction       = 0.5 * (first.friction + last.friction);
     result.friction_bound = 0.5 * (std::abs(first.friction - last.friction) +
                                    first.friction_bound + last.friction_bound);

@@ -51,24 +51,9 @@ namespace Debond
       "Normal stiffness.");
     law_choice.declare(table, "Tractions across the interface.");
     friction_choice.declare(table, "Friction coefficient mu.");
-    table.add("Friction starts at",
-              friction_starts_at,
-              Allowed::number("time").or_word_for("auto", entry_text(-1e100)),
-              "Time until which the interface is frictionless. `auto': it has "
-              "friction from the first time on.");
-    table.add("Interference",
-              interference,
-              Allowed::text("an expression in t"),
-              "Excess of the diameter of the implant over that of its bore "
-              "[mm], an expression in the time t; negative: clearance. Its "
-              "value at the first time is there before anything moves.");
-    table.add("Opening breaks bond",
-              opening_breaks_bond,
-              Allowed::choice("false | true"),
-              "`true': a bonded point that opens is debonded for good. "
-              "`false': it bonds again when it closes, as in the paper (with "
-              "Law = adhesive or mixed mode: as that law says).");
-    declare_viscosity(table);
+    pressure_dependence.declare(table);
+    bone_layer.declare(table);
+    declare_rest(table);
     bonding.declare(table);
     table.leave_subsection();
   }
@@ -168,6 +153,7 @@ namespace Debond
     // subsection the law has read itself.
     law->stiffness           = normal_penalty;
     law->friction            = friction;
+    law->bone                = bone_layer;
     law->opening_breaks_bond = opening_breaks_bond;
     law->explicit_friction   = explicit_friction;
     return initialised(law);
@@ -199,8 +185,25 @@ namespace Debond
 
 
   void
-  InterfaceParameters::declare_viscosity(EntryTable &table)
+  InterfaceParameters::declare_rest(EntryTable &table)
   {
+    table.add("Friction starts at",
+              friction_starts_at,
+              Allowed::number("time").or_word_for("auto", entry_text(-1e100)),
+              "Time until which the interface is frictionless. `auto': it has "
+              "friction from the first time on.");
+    table.add("Interference",
+              interference,
+              Allowed::text("an expression in t"),
+              "Excess of the diameter of the implant over that of its bore "
+              "[mm], an expression in the time t; negative: clearance. Its "
+              "value at the first time is there before anything moves.");
+    table.add("Opening breaks bond",
+              opening_breaks_bond,
+              Allowed::choice("false | true"),
+              "`true': a bonded point that opens is debonded for good. "
+              "`false': it bonds again when it closes, as in the paper (with "
+              "Law = adhesive or mixed mode: as that law says).");
     table.add(
       "Viscosity",
       viscosity,

@@ -171,11 +171,12 @@ namespace Debond
   {
     InterfaceSummary summary;
     double           area = 0.;
-    // open, stick, slip, pulled: see PointStatus
-    const std::array<double *, 4> share_of{{&summary.share_open,
+    // open, stick, slip, pulled, shears: see PointStatus
+    const std::array<double *, 5> share_of{{&summary.share_open,
                                             &summary.share_stick,
                                             &summary.share_slip,
-                                            &summary.share_pulled}};
+                                            &summary.share_pulled,
+                                            &summary.share_shears}};
     const double                  resistance =
       law.tangential_penalty + viscous_stiffness(law, mode_now);
     for (const SlavePoint &point : points)
@@ -277,6 +278,9 @@ namespace Debond
   {
     // a bound over the distance of this step and what is still to come, by the
     // law
+    if (point.trial.state.status == PointStatus::shears &&
+        !law.joint->bone.shear_wears_bond)
+      return;
     const double slope =
       law.joint->softening_by_slip(point.begin(*law.joint, mode_now),
                                    point.trial.pressure,

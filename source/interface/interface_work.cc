@@ -173,9 +173,11 @@ namespace Debond
               .dot(slip);
     // the same across the interface, whichever way the gap goes
     const bool   was_open = point.accepted.normal_gap == PointHistory::far;
-    const double opened   = was_open ? 0. :
-                                       std::max(0., trial.normal_gap) -
-                                       std::max(0., point.accepted.normal_gap);
+    const double opened =
+      was_open ?
+        0. :
+        std::max(0., trial.normal_gap + trial.state.crushed) -
+          std::max(0., point.accepted.normal_gap + point.accepted.crushed);
     const double viscous_opening =
       -0.5 * point.JxW *
       (point.accepted_viscous_pressure + trial.viscous_pressure) * opened;
@@ -184,9 +186,12 @@ namespace Debond
     // By the law: the exact integral over the slip at the pressures of both
     // ends, which a step that follows equilibrium comes to, too, as steps
     // shrink.
-    const PointStart start = point.begin(law, mode);
-    const PointWork  by_law =
-      law.work(start, trial.normal_gap, trial.state.slip - point.accepted.slip);
+    const PointStart start   = point.begin(law, mode);
+    const double     in_bone = trial.state.sheared - point.accepted.sheared,
+                 slid        = trial.state.slip - point.accepted.slip -
+                        (law.bone.shear_wears_bond ? in_bone : 0.);
+    const PointWork by_law = law.work(start, trial.normal_gap, slid);
+    add_bone(point, law, start, in_bone);
     // where a pattern has moved on, the string bears more than what holds now
     if (law.friction->has_bond() && !slip.isZero(0.))
       {
@@ -206,6 +211,39 @@ namespace Debond
     dissipation += of_gap;
     friction += point.JxW * (by_law.damage - by_law.lift + by_law.friction);
     friction_bound += point.JxW * by_law.friction_bound;
+  }
+
+
+
+  // Of bone that is crushed the trapezoid takes the mean pressure of both ends,
+  // and the law what it has taken since it began. In shear it bears the same
+  // all the while.
+  void
+  InterfaceWork::add_bone(const SlavePoint   &point,
+                          const InterfaceLaw &law,
+                          const PointStart   &start,
+                          const double        slid)
+  {
+    const ContactPointResult &trial = point.trial;
+    const double deeper = trial.state.crushed - point.accepted.crushed;
+    if (deeper > 0.)
+      {
+        const auto pressure = [&](const double gap, const double distance) {
+          return std::max(0., law.push(start, gap, distance).pressure);
+        };
+        const double by_law = point.JxW * law.bone.work(point.accepted.crushed,
+                                                        trial.state.crushed),
+                     by_trapezoid = 0.5 * point.JxW * deeper *
+                                    (pressure(point.accepted.normal_gap, 0.) +
+                                     trial.pressure - trial.viscous_pressure);
+        crushed += by_law;
+        dissipation += by_trapezoid;
+        friction += by_law;
+        friction_bound += std::abs(by_law - by_trapezoid);
+      }
+    const double shear = point.JxW * law.bone.shear_strength * slid;
+    friction += shear;
+    sheared += shear;
   }
 
 
@@ -282,9 +320,10 @@ namespace Debond
       joint.respond(start, point.accepted.normal_gap, 0.);
     // Pressure at the beginning [MPa]; gap at the end [mm], over that up to
     // which faces that have climbed carry something.
-    const double p   = std::max(0., at_start.pressure),
-                 g_n = trial.normal_gap -
-                       (joint.pulls() ? 0. : joint.reach(start, 0.));
+    const double p = std::max(0., at_start.pressure),
+                 g_n =
+                   trial.normal_gap - (joint.pulls() ? -start.history.crushed :
+                                                       joint.reach(start, 0.));
     const Eigen::Vector3d old_traction = frame * point.accepted_traction,
                           gap          = old_traction / law.tangential_penalty,
                           // unloaded, the bodies move as well: while the point

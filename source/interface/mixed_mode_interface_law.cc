@@ -1,4 +1,6 @@
 #include <debond/interface/bilinear_bond.h>
+#include <debond/support/input_error.h>
+#include <debond/support/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +35,11 @@ namespace Debond
         // fall are those of the bond; friction contributes nothing to them, as
         // its coefficient is that of broken faces throughout.
         require_bond("mixed mode");
+        if (bone.shears())
+          throw EntryError("Interface / Bone shear strength",
+                           "with Law = mixed mode the strength of the bond is "
+                           "Mixed mode / Shear strength: expected none",
+                           to_text(bone.shear_strength));
         bond.check();
         tension                 = bond.tension();
         characteristic_distance = bond.length_of_damage();
@@ -41,14 +48,15 @@ namespace Debond
       }
 
       InterfaceResponse
-      respond(const PointStart &start,
-              const double      g_n,
-              const double      distance) const override
+      answer(const PointStart &start,
+             const double      g_n,
+             const double      distance) const override
       {
         InterfaceResponse result =
-          InterfaceLaw::respond(broken(start), g_n, distance);
+          InterfaceLaw::answer(broken(start), g_n, distance);
         // the tangent of faces that touch, whichever way they will go
-        if (start.history.joined && std::abs(g_n) < 1e-9 * bond.N / bond.K)
+        if (start.history.joined &&
+            std::abs(gap_left(start, g_n, distance)) < 1e-9 * bond.N / bond.K)
           result.pressure_by_gap =
             -std::max(stiffness, start.phi_0 * (1. - start.damage) * bond.K);
         // Of the area of the point the share phi_0 (1 - omega) is held and rubs
@@ -87,8 +95,8 @@ namespace Debond
         before.damage     = start.history.damage;
         // A trapezoid between the limits of both ends [N/mm]: damage grows in
         // the step, and the share that rubs with it.
-        const double L_n = respond(before, start.history.normal_gap, 0.).limit,
-                     L   = respond(start, g_n, distance).limit;
+        const double L_n = answer(before, start.history.normal_gap, 0.).limit,
+                     L   = answer(start, g_n, distance).limit;
         result.friction  = 0.5 * (L_n + L) * distance;
         result.friction_bound = 0.5 * std::abs(L - L_n) * distance;
         return result;

@@ -89,8 +89,8 @@ namespace Debond
     // It resists as fast as the point moves, and pulls where a trial moves
     // backwards.
     resistance = response.resists ? point.viscous : 0.;
-    limit      = response.limit + resistance * distance;
-    slope      = response.limit_by_slip + resistance;
+    limit      = response.limit + resistance * response.rubbed;
+    slope      = response.limit_by_slip + (response.shears ? 0. : resistance);
 
     tangential_traction = limit * tau;
     traction            = -response.pressure * normal.n + tangential_traction;
@@ -446,6 +446,8 @@ namespace Debond
       tangential +=
         change.head<3>() + more * e.normal.n + response.pressure * n_turns;
     response.pressure += more;
+    if (!response.shears)
+      response.rubbed = e.distance + change[3];
     result.state.xi = xi_hat;
     if (last_step.isZero(0.))
       result.basis = basis;
@@ -460,7 +462,7 @@ namespace Debond
                 e.distance + change[3],
                 result);
     result.viscous_traction =
-      e.resistance * (e.distance + change[3]) * tangential.normalized();
+      e.resistance * response.rubbed * tangential.normalized();
     result.slip_increment =
       e.slip + geometry.a1 * last_step[0] + geometry.a2 * last_step[1];
     const auto by_w = e.along_w();
@@ -488,7 +490,8 @@ namespace Debond
       }
     // where it has not moved the length has no derivative
     result.dpath.setZero();
-    if (result.state.slip != point.start.history.slip)
+    if (point.joint().slid(result.state) !=
+        point.joint().slid(point.start.history))
       result.dpath = total.row(3);
     if (point.joint().opened(result.state) >
         point.joint().opened(point.start.history))

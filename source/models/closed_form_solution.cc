@@ -48,7 +48,8 @@ namespace Debond
                 "this closed form knows a fully bonded surface only");
       refuse_if(!scene.interface.is_friction_only(),
                 "Interface / Law",
-                "closed forms know friction without strength in tension only");
+                "closed forms know friction in proportion to the pressure, "
+                "without strength in tension, on bone that bears all, only");
       refuse_if(scene.interface.viscosity != 0,
                 "Interface / Viscosity",
                 "closed forms do not depend on the rate");

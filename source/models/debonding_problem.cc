@@ -3,6 +3,7 @@
 #include <debond/models/resumed_run.h>
 #include <debond/models/run_report.h>
 #include <debond/models/simulation.h>
+#include <debond/output/bone_measures.h>
 #include <debond/output/checkpoint.h>
 #include <debond/output/field_output.h>
 #include <debond/shapes/modulus_field.h>
@@ -298,6 +299,7 @@ namespace Debond
           {"reason", reason},
           {"wall_seconds", seconds.at("all")}};
         facts.update(fields.measures());
+        facts.update(bone_measures(simulation.scene, system.interface));
         if (const auto *const effort_of_multigrid = system.multigrid_effort())
           facts.update(
             {{"processes", Ranks::number()},

@@ -66,19 +66,29 @@ namespace Debond
       why = "ends of the bone or of the implant matter";
     if (!why.empty())
       return;
-    pressure = fit.pressure();
+    // where bone is crushed to c, p_c + H c is left of what the fit asks for
+    const BoneLayer &layer = interface.bone_layer;
+    const double     H     = layer.crushing_modulus;
+    pressure               = fit.pressure();
+    if (layer.crushes() && pressure > layer.crushing_strength)
+      pressure = (H * fit.half_interference + layer.crushing_strength) /
+                 (H * (fit.bodies + fit.interface) + 1.);
     error += 0.01;
-    if (!interface.is_friction_only() || interface.viscosity > 0. ||
+    if (interface.law_choice.law != "friction" || interface.viscosity > 0. ||
         interface.bonding_of_law().pattern != BondingPatternKind::homogeneous)
       return;
     const double phi_0 = interface.bonding_of_law().initial_bonding;
+    const double tau_b = layer.shears() ? layer.shear_strength : HUGE_VAL;
     const auto   limit = [&](const double phi) {
-      return interface.friction->limit({}, phi, pressure, 0.).value;
+      return std::min(tau_b,
+                      interface.friction->limit({}, phi, pressure, 0.).value);
     };
-    const double most = limit(phi_0),
-                 slip = way - most / interface.tangential_stiffness();
+    const double most = limit(phi_0);
+    double       slip = way - most / interface.tangential_stiffness();
     if (!(slip > 0.))
       return;
+    if (most == tau_b && !layer.shear_wears_bond)
+      slip = 0.; // of the interface
     // around the pole of a cup it slides less, or not at all: of the torque
     // the part within an angle x of it is 4 x^3 / (3 pi)
     if (scene.implant.shape == BodyShape::cup)

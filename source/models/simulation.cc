@@ -594,6 +594,9 @@ namespace Debond
     row.share_pulled        = summary.share_pulled;
     row.damage_Nmm          = interface.work().damage;
     row.adhesive_normal_Nmm = interface.work().adhesive_normal;
+    row.crushed_Nmm         = interface.work().crushed;
+    row.sheared_Nmm         = interface.work().sheared;
+    row.share_shears        = summary.share_shears;
     row.warnings            = state_checks.take_violations();
     // With a compliant machine the scene prescribes the place of the machine,
     // ahead of the chuck's by T / k or F / k.

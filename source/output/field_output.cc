@@ -126,7 +126,7 @@ namespace Debond
       const PointTraction       traction = interface.traction(point);
       const bool                is_beyond =
         trial.state.status == PointStatus::open &&
-        (!trial.state.has_partner || trial.normal_gap < 0.);
+        (!trial.state.has_partner || trial.normal_gap < -trial.state.crushed);
       Eigen::Matrix<double, 6, 1> values;
       values << traction.pressure, traction.tangential,
         is_beyond ? 0. : trial.normal_gap, trial.state.slip;
@@ -222,6 +222,10 @@ namespace Debond
                       {{"left_by_opening", 1},
                        {"left_by_slip", 1},
                        {"mode_deg", 1}});
+      if (law.bone.crushes())
+        fields.emplace_back("crushed_mm", 1);
+      if (law.bone.shears())
+        fields.emplace_back("sheared_mm", 1);
       return fields;
     }
 
@@ -255,6 +259,17 @@ namespace Debond
           append_values(values,
                         Eigen::Vector3d(left[0], left[1], traction.mode_deg()));
         }
+      double crushed = 0., sheared = 0.;
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const PointHistory &state = stencil.point[a]->trial.state;
+          crushed += stencil.weight[a] * state.crushed;
+          sheared += stencil.weight[a] * state.sheared;
+        }
+      if (law.bone.crushes())
+        values.push_back(crushed);
+      if (law.bone.shears())
+        values.push_back(sheared);
     }
     /** The fields of the interface in the trial state on the surface of the
      *  slave; class FieldOutput says which, and how they are interpolated. */

@@ -34,7 +34,8 @@ namespace Debond
     identities(const Scene &scene)
     {
       std::string text = scene.interface.bonding.identity +
-                         identity_of(scene.interface.friction->file);
+                         identity_of(scene.interface.friction->file) +
+                         identity_of(scene.interface.pressure_dependence.table);
       for (const ChuckComponentParameters &component : scene.chuck.component)
         text += identity_of(component.file);
       for (const BodyParameters *const body : {&scene.bone, &scene.implant})
@@ -279,7 +280,8 @@ namespace Debond
   {
     chuck.take_press();
     interface.bonding.identity = identity_of(interface.bonding.file);
-    interface.friction         = create_friction_law(interface.friction_choice);
+    interface.friction         = interface.pressure_dependence.of(
+      create_friction_law(interface.friction_choice));
     check_shapes();
     implant.make_mesh("Implant", implant);
     bone.make_mesh("Bone", implant);

@@ -277,7 +277,8 @@ namespace Debond
       const BodyParameters &bone = scene.bone, &implant = scene.implant;
       const auto [least, most] =
         std::minmax_element(values.begin(), values.end());
-      note(*least >= 0. && *most > 0. && scene.interface.is_friction_only(),
+      note(*least >= 0. && *most > 0. &&
+             scene.interface.law_choice.law == "friction",
            "direction of the push",
            entry +
              std::string(z.into_bone ? " is never positive" :

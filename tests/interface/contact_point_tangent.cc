@@ -99,7 +99,10 @@ struct Question
   PointStart
   begin() const
   {
-    return law.joint->begin(start, phi_0, mode.duration, mode.frictionless);
+    PointStart result =
+      law.joint->begin(start, phi_0, mode.duration, mode.frictionless);
+    result.viscous = viscous_stiffness(law, mode);
+    return result;
   }
 
   Question
@@ -254,13 +257,13 @@ check_equations(const Question           &question,
   const double          eps_t = question.law.tangential_penalty;
   const Eigen::Vector3d g = question.x - at.y, g_t = at.tangential(g),
                         trial = old.tangential(question.x - old.y);
-  const double distance       = result.state.slip - question.start.slip;
+  const double distance = law.slid(result.state) - law.slid(question.start);
   const auto   response = law.respond(question.begin(), g.dot(at.n), distance);
   const auto   limit    = [&](const InterfaceResponse &of, const double way) {
     const double eta = of.resists && question.rubs ?
                               question.law.viscosity / question.mode.duration :
                               0.;
-    return of.limit + eta * way;
+    return of.limit + eta * (of.shears ? of.rubbed : way);
   };
   grow(found.equations, std::abs(result.pressure - response.pressure));
   grow(found.equations,
@@ -349,7 +352,8 @@ check_point(Question question, Findings &found)
         grow(found.nothing,
              result.traction.norm() + result.dt.norm() + result.dxi.norm() +
                std::abs(result.pressure) +
-               std::abs(result.state.slip - question.start.slip));
+               std::abs(question.law.joint->slid(result.state) -
+                        question.law.joint->slid(question.start)));
       else if (result.state.status != PointStatus::pulled)
         check_equations(question, result, found);
       question.start = result.state;
@@ -363,7 +367,8 @@ check_point(Question question, Findings &found)
 void
 check(const std::string &name, const ContactPointLaw &law, const bool rubs)
 {
-  Findings found;
+  const bool shears = law.joint->bone.shears();
+  Findings   found;
   for (unsigned int sample = 0; sample < 150; ++sample)
     {
       Question question;
@@ -393,6 +398,7 @@ check(const std::string &name, const ContactPointLaw &law, const bool rubs)
   };
   report(name + ": twenty states each, and hardly one is not found",
          compared(PointStatus::slip) && compared(PointStatus::open) &&
+           (compared(PointStatus::shears) || !shears) &&
            (compared(PointStatus::stick) || !rubs) && found.failed < 3);
   report(name + ": derivatives, deviation from differences",
          found.derivatives,
@@ -428,31 +434,42 @@ main()
                                "set Adhesive friction = 1\n"
                                "end\nsubsection Expert\nsubsection Adhesive\n"
                                "set Opening viscosity = 20\nend\nend\n";
+  // crushed up to a third of the pressures, and sheared below mu p
+  const BoneLayer layers[]{{}, {4., 150., 2.}, {4., 0., 2., true}};
   for (const InterfaceLawPlugin &plugin : all_laws<InterfaceLaw>())
     for (const FrictionLawPlugin &friction : all_laws<FrictionLaw>())
       for (const auto &[name, direction, is_explicit] : methods)
-        {
-          ContactPointLaw law;
-          try
-            {
-              law.joint =
-                interface_law_of_text(plugin.name == std::string("adhesive") ?
-                                        adhesive :
-                                        "set Law = " + plugin.name + "\n",
-                                      law_of_text(
-                                        "set Friction law = " + friction.name +
-                                        "\nset Friction table = "
-                                        "contact_point_tangent.csv\n"),
-                                      is_explicit);
-            }
-          catch (const EntryError &) // it has no bond
-            {
+        for (BoneLayer bone : layers)
+          {
+            const bool is_layer = bone.crushes(),
+                       rubs     = friction.name != "frictionless";
+            if (is_layer && direction != SlipDirection::integrated)
               continue;
-            }
-          law.tangential_penalty = 250.;
-          law.slip_direction     = direction;
-          check(plugin.name + ", " + friction.name + ", " + name,
-                law,
-                friction.name != "frictionless");
-        }
+            if (plugin.name == "mixed mode" || !rubs)
+              bone.shear_strength = 0.; // refused, not reached
+            ContactPointLaw law;
+            try
+              {
+                law.joint = interface_law_of_text(
+                  plugin.name == "adhesive" ? adhesive :
+                                              "set Law = " + plugin.name + "\n",
+                  law_of_text("set Friction law = " + friction.name +
+                              "\nset Friction table = "
+                              "contact_point_tangent.csv\n"),
+                  is_explicit,
+                  bone);
+              }
+            catch (const EntryError &) // it has no bond
+              {
+                continue;
+              }
+            law.tangential_penalty = 250.;
+            law.slip_direction     = direction;
+            check(plugin.name + ", " + friction.name + ", " + name +
+                    (!is_layer             ? "" :
+                     bone.shear_wears_bond ? ", bone, sheared with the bond" :
+                                             ", bone"),
+                  law,
+                  rubs);
+          }
 }

@@ -4,6 +4,8 @@
 // is constant where closed forms take it to be; and entries of the same name
 // are the same entry.
 
+#include <debond/interface/pressure_dependence.h>
+
 #include <boost/math/quadrature/gauss.hpp>
 
 #include <algorithm>
@@ -99,12 +101,11 @@ slope_of(const Function &f, const double x, const double h)
 
 
 void
-check_law(const std::string &name)
+check_law(const std::string &name, const FrictionLawPointer &law)
 {
-  const FrictionLawPointer law  = law_called(name);
-  const double             size = law->characteristic_distance;
-  const bool               rate = law->depends_on_rate;
-  double by_slip = 0, by_pressure = 0, by_bond = 0, work = 0, bond = 0,
+  const double size    = law->characteristic_distance;
+  const bool   rate    = law->depends_on_rate;
+  double       by_slip = 0, by_pressure = 0, by_bond = 0, work = 0, bond = 0,
          faster = 0, tail = 0;
   bool positive = true;
   for (const PointStart &start : states(*law))
@@ -139,9 +140,12 @@ check_law(const std::string &name)
           unbonded.phi_0           = 0.;
           const double integral    = integral_of_limit(*law, start, p, d),
                        of_broken   = integral_of_limit(*law, unbonded, p, d);
-          grow(work, std::abs(by_law.friction - integral) / (p * d));
+          grow(work,
+               std::abs(by_law.friction - integral) /
+                 (std::max(p, now.value) * d));
           grow(bond,
-               std::abs(by_law.adhesive - (integral - of_broken)) / (p * d));
+               std::abs(by_law.adhesive - (integral - of_broken)) /
+                 (std::max(p, now.value) * d));
           positive = positive && now.value >= 0.;
           grow(faster,
                (-now.by_slip - law->steepest_fall(start, p, d)) * size / p);
@@ -161,11 +165,53 @@ check_law(const std::string &name)
 
 
 
+// The coefficient is the scene's at the reference pressure, and factors are
+// those of the rows, constant beyond.
+void
+check_values()
+{
+  const auto mu = [](const PressureDependence &dependence, const double p) {
+    return dependence
+             .of(law_of_text("set Friction law = coulomb\n"
+                             "set Friction coefficient = 0.4\n"))
+             ->limit({}, 0., p, 1.)
+             .value /
+           p;
+  };
+  const PressureDependence power{0.7, 2., ""}, table{1., 0., "factors.csv"};
+  report("at the reference pressure the coefficient differs by",
+         std::abs(mu(power, 2.) - 0.4),
+         1e-15);
+  report("at eight times that by",
+         std::abs(mu(power, 16.) - 0.4 * std::pow(8., -0.3)),
+         1e-15);
+  double worst = 0.;
+  for (const auto &[p, factor] :
+       {std::pair(0.1, 1.), {0.5, 1.}, {2., 0.8}, {10., 0.75}, {100., 0.6}})
+    grow(worst, std::abs(mu(table, p) - 0.4 * factor));
+  report("at the rows of a table by", worst, 1e-15);
+}
+
+
+
 int
 main()
 {
+  std::ofstream("factors.csv")
+    << "pressure_MPa,factor\n0.5,1\n2,0.8\n10,0.75\n40,0.6\n";
   for (const FrictionLawPlugin &plugin : all_laws<FrictionLaw>())
-    check_law(plugin.name);
+    {
+      const FrictionLawPointer law = law_called(plugin.name);
+      check_law(plugin.name, law);
+      // below and above p_0/1000
+      check_law(plugin.name + ", p^0.67",
+                PressureDependence{0.67, 900., ""}.of(law));
+      check_law(plugin.name + ", p^1.3",
+                PressureDependence{1.3, 10., ""}.of(law));
+      check_law(plugin.name + ", table of factors",
+                PressureDependence{1., 0., "factors.csv"}.of(law));
+    }
+  check_values();
   report("entries of the same name are the same entry",
          entries_are_shared<FrictionLaw>());
 }

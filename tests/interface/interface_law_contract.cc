@@ -23,9 +23,12 @@ using namespace Debond;
 
 /** The law with its default entries, and the friction of the paper. */
 InterfaceLawPointer
-law_called(const std::string &name)
+law_called(const std::string &name, const BoneLayer &bone = {})
 {
-  return interface_law_of_text("set Law = " + name + "\n", modified_coulomb());
+  return interface_law_of_text("set Law = " + name + "\n",
+                               modified_coulomb(),
+                               false,
+                               bone);
 }
 
 
@@ -67,7 +70,7 @@ struct Point
   double              phi_0;
   PointHistory        history;
   double work = 0., lift = 0., damage = 0., friction = 0.; ///< [N/mm]
-  double least_damage = 0., lost = 0.;
+  double least_damage = 0., crushed = 0.;
 
   InterfaceResponse
   response() const
@@ -98,8 +101,11 @@ struct Point
         damage += by_law.damage;
         friction += by_law.friction;
       }
-    least_damage = std::min(least_damage, by_law.damage);
-    history      = law.advance(start, g_n, distance);
+    least_damage       = std::min(least_damage, by_law.damage);
+    const double depth = history.crushed;
+    history            = law.advance(start, g_n, distance);
+    crushed += law.bone.work(depth, history.crushed);
+    least_damage = std::min(least_damage, history.crushed - depth);
     return true;
   }
 };
@@ -193,7 +199,8 @@ check_energies(const std::string &name, const InterfaceLaw &law)
           Point  point{law, 1. - 0.01 * sample, {}};
           double stored = 0., missing = 0.;
           point.step(motion.gap(0.), 0.);
-          stored = point.response().energy;
+          point.crushed = 0.;
+          stored        = point.response().energy;
           for (unsigned int i = 0; i < steps; ++i)
             {
               const bool is_carried = point.step(motion.gap((i + 1.) / steps),
@@ -201,7 +208,7 @@ check_energies(const std::string &name, const InterfaceLaw &law)
                                                    motion.slid(1. * i / steps));
               if (!is_carried)
                 break; // what opens has stored nothing; here it ends
-              missing = point.work + point.lift - point.damage -
+              missing = point.work + point.lift - point.damage - point.crushed -
                         (point.response().energy - stored);
               size = std::max({size, std::abs(point.work), point.damage});
             }
@@ -284,6 +291,33 @@ check_cohesion(const std::string &name, const InterfaceLaw &law)
 
 
 
+// Bone that is crushed in one step and in many, deeper and deeper: the same
+// depth, and on the way back and forth again the spring alone.
+void
+check_crushing(const std::string &name, const InterfaceLaw &law)
+{
+  double difference = 0., elastic = 0.;
+  for (const double depth : {0.002, 0.004, 0.02})
+    {
+      Point once{law, 0.8, {}}, often{law, 0.8, {}};
+      once.step(-depth, 0.);
+      for (unsigned int i = 1; i <= 9; ++i)
+        often.step(-depth * i / 9., 0.);
+      grow(difference, std::abs(once.history.crushed - often.history.crushed));
+      const double p         = once.response().pressure;
+      const bool   is_closed = once.step(-0.7 * depth, 0.);
+      grow(elastic,
+           std::abs((is_closed ? once.response().pressure : 0.) -
+                    std::max(0., p - 0.3 * law.stiffness * depth)));
+      once.step(-depth, 0.);
+      grow(elastic, std::abs(once.response().pressure - p));
+    }
+  report(name + ": crushed in one step and in nine", difference, 1e-15);
+  report(name + ": unloads and reloads along the spring", elastic, 1e-12);
+}
+
+
+
 /** With all friction laws that it takes. */
 void
 check_frictions(const std::string &name)
@@ -322,6 +356,17 @@ main()
       check_energies(plugin.name, *law);
       if (law->cohesion)
         check_cohesion(plugin.name, *law);
+      for (const double H : {0., 150.})
+        {
+          const std::string name =
+            plugin.name + ", crushed bone, H = " + std::to_string(int(H));
+          const InterfaceLawPointer crushed =
+            law_called(plugin.name, BoneLayer{1.2, H});
+          check_derivatives(name, *crushed);
+          check_energies(name, *crushed);
+          if (!crushed->pulls())
+            check_crushing(name, *crushed);
+        }
     }
   report("entries of the same name are the same entry",
          entries_are_shared<InterfaceLaw>());

@@ -54,11 +54,13 @@ law_of_text(const std::string &entries)
 inline Debond::InterfaceLawPointer
 interface_law_of_text(const std::string                &entries,
                       const Debond::FrictionLawPointer &friction,
-                      const bool                        is_explicit = false)
+                      const bool                        is_explicit = false,
+                      const Debond::BoneLayer          &bone        = {})
 {
   const auto law =
     choice_of_text<Debond::InterfaceLaw>(entries, {"Law", "friction"}).make();
   law->friction          = friction;
   law->explicit_friction = is_explicit;
+  law->bone              = bone;
   return Debond::initialised(law);
 }

@@ -56,8 +56,7 @@ press(const std::vector<std::string> &overrides)
     }
   result.mean /= area;
   for (const auto &point : points)
-    grow(result.deviation,
-         std::abs(point.trial.pressure / result.mean - 1));
+    grow(result.deviation, std::abs(point.trial.pressure / result.mean - 1));
   return result;
 }
 
@@ -102,11 +101,12 @@ check_matching()
           const std::string expert    = is_spline ? "" : "Expert/",
                             entry =
                               is_spline ? "/Element=" : "/Contact surface=";
-          const Pressure pressure = press({"Expert/Interface/Slave=" + slave,
-                                           "Bone/Material=" + material,
-                                           "Implant/Material=" + material,
-                                           expert + "Bone" + entry + surface,
-                                           expert + "Implant" + entry + surface});
+          const Pressure pressure =
+            press({"Expert/Interface/Slave=" + slave,
+                   "Bone/Material=" + material,
+                   "Implant/Material=" + material,
+                   expert + "Bone" + entry + surface,
+                   expert + "Implant" + entry + surface});
           report("  deviation from uniform pressure",
                  pressure.deviation,
                  1e-10);

@@ -20,7 +20,8 @@ namespace Debond
   struct InterfaceSummary
   {
     double phi_mean    = 0; ///< area mean over the implant's contact face
-    double share_stick = 0, share_slip = 0, share_open = 0, share_pulled = 0;
+    double share_stick = 0, share_slip = 0, share_open = 0, share_pulled = 0,
+           share_shears = 0;
     double pressure = 0, tangential = 0; ///< area means [MPa]
     double energy = 0;                   ///< stored [N mm]
     /** Largest -dL/d g_s / (eps_t + eta / dt), where the law of a point falls
@@ -147,6 +148,8 @@ namespace Debond
      *  the pressure or the speed changes while a point slides, and where points
      *  open; a bound of the sum over all steps. */
     double friction_bound = 0;
+    /** The parts of both that crushed and sheared bone make up. */
+    double crushed = 0, sheared = 0;
 
     /** Adds the work of @p point from its accepted state to its trial state;
      *  @p mode: of the step; @p frame: Q of the master. */
@@ -155,6 +158,12 @@ namespace Debond
         const InterfaceLaw     &law,
         const ContactPointMode &mode,
         const Eigen::Matrix3d  &frame);
+    /** What the bone beside it takes, which has slid there by @p slid [mm]. */
+    void
+    add_bone(const SlavePoint   &point,
+             const InterfaceLaw &law,
+             const PointStart   &start,
+             double              slid);
     /** The work of damage of a share that is held. */
     void
     add(const CohesiveShare    &share,
@@ -176,7 +185,8 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &dissipation &dissipation_bound &adhesive &viscous &friction
-        &friction_bound &step_dissipation &damage &adhesive_normal;
+        &friction_bound &step_dissipation &damage &adhesive_normal &crushed
+          &sheared;
     }
   };
 

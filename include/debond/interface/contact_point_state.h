@@ -14,14 +14,15 @@ namespace Debond
     open   = 0,
     stick  = 1,
     slip   = 2,
-    pulled = 3 ///< across the interface only: it rubs nowhere
+    pulled = 3, ///< across the interface only: it rubs nowhere
+    shears = 4  ///< it slides in the bone
   };
 
   /** Whether a point's xi_hat moves. */
   inline bool
   slides(const PointStatus status)
   {
-    return status == PointStatus::slip || status == PointStatus::pulled;
+    return status >= PointStatus::slip;
   }
 
   /** The state of one slave quadrature point. */
@@ -43,7 +44,7 @@ namespace Debond
     serialize(Archive &archive, const unsigned int)
     {
       archive &status &has_partner &broken &joined &xi &gap &normal_gap;
-      archive &slip                                         &damage;
+      archive &slip &damage &crushed &crushed_at            &sheared;
       for (double &variable : internal)
         archive &variable;
     }

@@ -30,6 +30,10 @@ namespace Debond
      *  what the number means is that law's own affair. */
     double            damage = 0;
     InternalVariables internal{};
+    /** Depth to which the bone at the point is crushed [mm], and the sliding
+     *  distance up to which it was [mm]. */
+    double crushed = 0, crushed_at = 0;
+    double sheared = 0; ///< distance that it has slid in the bone [mm]
 
     /** @p phi_0, or 0 if the bond is gone for good. */
     double
@@ -63,6 +67,8 @@ namespace Debond
     /** Decay of the bond with nothing slid in the step: laws of the interface
      *  ask for it more than once, see InterfaceLaw::begin(). */
     Decay at_rest = {};
+    /** Resistance of its speed per distance, eta / dt [MPa/mm]. */
+    double viscous = 0;
 
     /** phi_0 as far as opening has not ended the bond. */
     double

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <debond/interface/bone_layer.h>
 #include <debond/interface/modified_coulomb.h>
 
 #include <Eigen/Core>
@@ -25,6 +26,10 @@ namespace Debond
     double viscous_pressure = 0; ///< the part of p that speed makes up [MPa]
     /** True if the viscosity resists sliding, beside L. */
     bool resists = false;
+    /** True if the point slides in the bone, which bears no more; @p rubbed is
+     *  the distance before that [mm]. */
+    bool   shears = false;
+    double rubbed = 0;
   };
 
 
@@ -78,6 +83,7 @@ namespace Debond
     //@{
     double             stiffness = 585; ///< eps_n [MPa/mm]
     FrictionLawPointer friction;        ///< never null where points are asked
+    BoneLayer          bone;
     bool               opening_breaks_bond = false;
     /** `Friction update = explicit': L is that at which the step begins,
      *  whatever the distance, so that a softening bond lags behind by a step.
@@ -104,17 +110,47 @@ namespace Debond
     }
 
     /** Tractions at the end of the step, at the gap @p g_n [mm], after sliding
-     *  by @p distance [mm]. Goes on smoothly beyond reach(), where Newton's
-     *  method may look, and where touching points have their tangent. A point
-     *  cannot slide backwards: at negative distances nothing rises. */
-    virtual InterfaceResponse
-    respond(const PointStart &start, double g_n, double distance) const;
+     *  by @p distance [mm], as far as the bone bears them. Goes on smoothly
+     *  beyond reach(), where Newton's method may look, and where touching
+     *  points have their tangent. A point cannot slide backwards: at negative
+     *  distances nothing rises. */
+    InterfaceResponse
+    respond(const PointStart &start,
+            const double      g_n,
+            const double      distance) const
+    {
+      InterfaceResponse result;
+      if (bone.shears())
+        return respond_in_bone(start, g_n, distance);
+      result        = answer(start, g_n, distance);
+      result.rubbed = distance;
+      return result;
+    }
+
+    /** What is left of a gap between faces that have been crushed and have
+     *  climbed on each other [mm]. */
+    virtual double
+    gap_left(const PointStart &start,
+             const double      g_n,
+             double /*distance*/) const
+    {
+      return g_n + start.history.crushed;
+    }
 
     /** The gap up to which the point is carried [mm]. */
     virtual double
-    reach(const PointStart &, double /*distance*/) const
+    reach(const PointStart &start, double /*distance*/) const
     {
-      return 0.;
+      return -start.history.crushed;
+    }
+
+    /** What pushes there, see gap_left(). */
+    BoneLayer::Push
+    push(const PointStart &start, const double g_n, const double distance) const
+    {
+      return bone.push(stiffness,
+                       gap_left(start, g_n, distance),
+                       start.history.crushed);
     }
 
     /** History of a point that is carried at the end of the step. */
@@ -125,7 +161,7 @@ namespace Debond
     virtual PointHistory
     open(const PointHistory &history) const;
 
-    /** Works of a point that is carried. */
+    /** Works of a point that is carried, but for what the bone takes. */
     virtual PointWork
     work(const PointStart &start, double g_n, double distance) const;
     //@}
@@ -165,6 +201,12 @@ namespace Debond
     {
       return tension.strength > 0.;
     }
+    /** Distance that a point has slid in the interface and in the bone [mm]. */
+    double
+    slid(const PointHistory &history) const
+    {
+      return history.slip + (bone.shear_wears_bond ? 0. : history.sheared);
+    }
     /** Opening that a point has come to [mm], which never falls: with the
      *  sliding distance what a path of equilibrium is measured by. */
     double
@@ -181,6 +223,10 @@ namespace Debond
     //@}
 
   protected:
+    /** respond(), of an interface on bone that bears all. */
+    virtual InterfaceResponse
+    answer(const PointStart &start, double g_n, double distance) const;
+
     /** Number of a point, and its derivatives by gap and distance. */
     using Changing = Eigen::Vector3d;
 
@@ -202,6 +248,10 @@ namespace Debond
      *  opening as well. Throws EntryError if there is none. */
     void
     require_bond(const std::string &law) const;
+
+  private:
+    InterfaceResponse
+    respond_in_bone(const PointStart &start, double g_n, double distance) const;
   };
 
   using InterfaceLawPointer = std::shared_ptr<const InterfaceLaw>;

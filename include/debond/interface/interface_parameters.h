@@ -3,6 +3,7 @@
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/bonding_parameters.h>
 #include <debond/interface/interface_law.h>
+#include <debond/interface/pressure_dependence.h>
 #include <debond/shapes/side.h>
 
 namespace Debond
@@ -21,6 +22,8 @@ namespace Debond
     FrictionLawPointer      friction = modified_coulomb();
     LawChoice<FrictionLaw>  friction_choice{"Friction law", "modified coulomb"};
     LawChoice<InterfaceLaw> law_choice{"Law", "friction"};
+    PressureDependence      pressure_dependence;
+    BoneLayer               bone_layer;
     double friction_starts_at = -1e100; ///< frictionless before this time
     /** By how much the implant is thicker than its bore, of t [mm]. */
     std::string   interference   = "0";
@@ -60,11 +63,13 @@ namespace Debond
     InterfaceLawPointer
     joint() const;
 
-    /** True if it is that of the paper, friction under pressure. */
+    /** True if it is that of the paper, friction in proportion to the pressure,
+     *  on bone that bears all. */
     bool
     is_friction_only() const
     {
-      return law_choice.law == "friction";
+      return law_choice.law == "friction" && pressure_dependence.is_none() &&
+             !bone_layer.crushes() && !bone_layer.shears();
     }
 
     /** See ContactPointLaw; makes the law. */
@@ -95,6 +100,6 @@ namespace Debond
 
   private:
     void
-    declare_viscosity(EntryTable &table);
+    declare_rest(EntryTable &table);
   };
 } // namespace Debond

@@ -53,8 +53,10 @@ namespace Debond
       // the potential that Eq. (28) comes from
       result.energy = response.energy +
                       0.5 * tangential.squaredNorm() / law.tangential_penalty;
-      static_cast<PointHistory &>(result.state) =
-        joint().advance(start, g_n, distance);
+      // what slides in the bone leaves the interface as it is
+      static_cast<PointHistory &>(result.state) = joint().advance(
+        start, g_n, joint().bone.shear_wears_bond ? distance : response.rubbed);
+      result.state.sheared += distance - response.rubbed;
     }
   };
 } // namespace Debond

@@ -40,7 +40,7 @@ namespace Debond
   {
   public:
     /** To be raised when the state of any class has other members. */
-    static constexpr unsigned int format = 13;
+    static constexpr unsigned int format = 14;
 
     explicit CheckpointFiles(const ResultDirectory &directory);
 

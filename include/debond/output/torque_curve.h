@@ -57,6 +57,9 @@ namespace Debond
     double adhesive_normal_Nmm = 0;
     /** Of the machine along z, as machine_angle_deg. */
     double machine_uz_mm = 0;
+    /** Parts of dissipation_Nmm, of bone that is crushed and sheared. */
+    double crushed_Nmm = 0, sheared_Nmm = 0;
+    double share_shears = 0; ///< slides in the bone
 
     /** What the curve between rows is drawn of: torque [N mm], chuck_reaction
      *  and chuck_position. */
@@ -115,6 +118,9 @@ namespace Debond
       visit("damage_Nmm", damage_Nmm);
       visit("adhesive_normal_Nmm", adhesive_normal_Nmm);
       visit("machine_uz_mm", machine_uz_mm);
+      visit("crushed_Nmm", crushed_Nmm);
+      visit("sheared_Nmm", sheared_Nmm);
+      visit("share_shears", share_shears);
     }
 
     /** See serialization.h. */

@@ -1,0 +1,48 @@
+#include <debond/interface/contact_interface.h>
+#include <debond/output/bone_measures.h>
+#include <debond/scene/scene.h>
+
+#include <algorithm>
+
+namespace Debond
+{
+  // The last state, and what the layer of bone has taken on the way. Half of
+  // what an interference is less than nominal is the mean depth of the dent.
+  nlohmann::ordered_json
+  bone_measures(const Scene &scene, const ContactInterface &interface)
+  {
+    const BoneLayer       &bone   = interface.get_law().bone;
+    nlohmann::ordered_json result = nlohmann::ordered_json::object();
+    double area = 0., volume = 0., crushed = 0., sheared = 0., deepest = 0.,
+           furthest = 0.;
+    for (const SlavePoint &point : interface.get_points())
+      if (point.faces_implant)
+        {
+          const PointHistory &state = point.accepted;
+          area += point.JxW;
+          volume += point.JxW * state.crushed;
+          crushed += state.crushed > 0. ? point.JxW : 0.;
+          sheared += state.sheared > 0. ? point.JxW : 0.;
+          deepest  = std::max(deepest, state.crushed);
+          furthest = std::max(furthest, state.sheared);
+        }
+    if (bone.crushes())
+      {
+        result.update({{"crushed_volume_mm3", volume},
+                       {"crushed_depth_mm", deepest},
+                       {"share_crushed", crushed / area},
+                       {"crushed_Nmm", interface.work().crushed}});
+        if (scene.interface.has_interference())
+          result["effective_interference_mm"] =
+            read_time_function(scene.interface.interference,
+                               scene.implant.characteristic_radius())(
+              scene.load_steps.times.back()) -
+            2. * volume / area;
+      }
+    if (bone.shears())
+      result.update({{"share_sheared", sheared / area},
+                     {"sheared_mm", furthest},
+                     {"sheared_Nmm", interface.work().sheared}});
+    return result;
+  }
+} // namespace Debond

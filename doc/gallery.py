@@ -42,7 +42,8 @@ FACT_NAMES = ["scene", "seconds", "ended", "curves", "map", "note"]
 NO_SCENES = re.compile(r"(_scenes?|_reference|/template|prm/coin)\.prm$")
 FOLDERS = {  # in this order
     "prm": "First scenes", "prm/tutorial": "Tutorial", "prm/paper": "The paper", "prm/adhesion": "Bonds with strength in tension",
-    "prm/shapes": "Shapes", "prm/heterogeneous": "Bone that varies", "prm/calibrate": "Fits", "prm/studies": "Studies",
+    "prm/shapes": "Shapes", "prm/bone": "Bone that gives way",
+    "prm/heterogeneous": "Bone that varies", "prm/calibrate": "Fits", "prm/studies": "Studies",
     "prm/stability": "Stability", "prm/verification": "Verification"}
 VIRIDIS = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]  # as in doc/style.gp
 BLUES = ["#f7fbff", "#deebf7", "#c6dbef", "#9ecae1", "#6baed6", "#4292c6", "#2171b5", "#084594"]

@@ -1613,6 +1613,7 @@ PICTURES = {
                              'prm/verification/cap_pulled_off.prm'),
     'bonds_on_half_spaces': ('doc/pictures.sh bonds', 'doc/verification/bonds_on_half_spaces.sh doc/verification/bonds_on_half_spaces.gp '
                              'prm/verification/kendall.prm prm/verification/bonded_disk_torsion.prm'),
+    'bone': ('doc/pictures.sh bone', 'doc/bone.gp prm/bone prm/coin_mode3.prm'),
     'setup': ('doc/pictures.sh setup', 'doc/images/setup.svg'),
     'data_set_1': ('doc/pictures.sh first', 'doc/first_picture.sh prm/paper/data_set_1_calibrated.prm prm/paper/data'),
     'report': ('doc/pictures.sh report', 'prm/paper/data_set_1_calibrated.prm prm/paper/data'),

@@ -4,6 +4,7 @@
 #   first           data_set_1: the curve of the first run with maps of phi (some seconds)
 #   geometry        the sketches and the friction law of doc/explanation
 #   half_bonded     torque and phi_0 of half-bonded coins (ten seconds)
+#   bone            bone that is crushed and sheared (ten seconds)
 #   film            front.webm and front_film.png (half a minute); needs NumPy, Matplotlib and ffmpeg
 #   report          the page of a run, seen by chromium; needs ImageMagick
 #   tutorial_fit    the fit of the tutorial (ten seconds)
@@ -50,6 +51,15 @@ at_angles() {
 coin() {
   "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Accuracy=none --set Expert/Output/Console=quiet --set "Output/Fields every=none" \
     --set "Bone/Cells=30, 30, 2" --set Bone/Material=linear --set Implant/Material=linear "$@"
+}
+
+bone() {
+  local name
+  for name in bone/coin_pressed bone/coin_stronger_than_bone coin_mode3; do
+    "$DEBOND" "prm/$name.prm" --force --set Expert/Output/Console=quiet --set "Output/Directory=output/$name"
+  done
+  gnuplot doc/bone.gp
+  publish output/bone/bone
 }
 
 half_bonded() {
@@ -106,6 +116,7 @@ make_pictures() {
     setup) rsvg-convert doc/images/setup.svg --output doc/images/setup.png ;;
     first) doc/first_picture.sh ;;
     half_bonded) half_bonded ;;
+    bone) bone ;;
     film) film ;;
     report)
       "$DEBOND" prm/paper/data_set_1_calibrated.prm --force --set Output/Directory=output/report --set Expert/Output/Console=quiet
@@ -140,7 +151,7 @@ make_pictures() {
     ensemble | work_precision) "doc/studies/$1.sh" --publish ;;
     all)
       local name
-      for name in setup first geometry half_bonded film report tutorial_fit bodies paper stability convergence cap_pulled_off bonds ensemble calibration step_error work_precision; do make_pictures $name; done
+      for name in setup first geometry half_bonded bone film report tutorial_fit bodies paper stability convergence cap_pulled_off bonds ensemble calibration step_error work_precision; do make_pictures $name; done
       ;;
     *)
       echo "pictures.sh: unknown name '$1'; the names stand at the top of this script" >&2

@@ -18,8 +18,10 @@ QUANTITIES = (("pressure_MPa", "Pressure", "MPa", BLUES, None, None),
               ("phi", "Bonding state φ", "", VIRIDIS, 0., 1.), ("mu", "Friction coefficient μ", "", VIRIDIS, None, None),
               ("left_by_opening", "Bond left by opening or damage", "", VIRIDIS, 0., 1.),
               ("left_by_slip", "Bond left by slip", "", VIRIDIS, 0., 1.),
-              ("mode_deg", "Mode of the traction: 0 opening, 90 sliding", "°", VIRIDIS, 0., 90.))
-STATES = (("open", "#d8d8d8"), ("sticks", "#fde725"), ("slides", "#6fb3bf"), ("pulled, without friction", "#b5367a"))
+              ("mode_deg", "Mode of the traction: 0 opening, 90 sliding", "°", VIRIDIS, 0., 90.),
+              ("crushed_mm", "Bone crushed to", "mm", BROWNS, 0., None), ("sheared_mm", "Distance slid in the bone", "mm", BROWNS, 0., None))
+STATES = (("open", "#d8d8d8"), ("sticks", "#fde725"), ("slides", "#6fb3bf"), ("pulled, without friction", "#b5367a"),
+          ("slides in the bone", "#cc4c02"))
 FINER = 2    # pixels of a place of the grid, along each side
 SAME = 1e-3  # what differs by less of the largest value is not told apart
 

@@ -277,7 +277,7 @@ class Simulation:
     def points(self) -> Dict[str, numpy.ndarray]:
         """The contact face in the newest row, a value per quadrature point that faces the implant: x_mm, y_mm, r_mm
         (reference position), pressure_MPa, traction_MPa (tangential), slip_mm (accumulated), phi, mu, state (0 open, 1 stick,
-        2 slip, 3 pulled), area_mm2, left_by_opening and left_by_slip (parts of a full bond), mode_deg."""
+        2 slip, 3 pulled, 4 slides in the bone), area_mm2, left_by_opening and left_by_slip (parts of a full bond), mode_deg."""
         return self._run.points()
 
     def bulk(self, body: str, points) -> Dict[str, numpy.ndarray]:

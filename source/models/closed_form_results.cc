@@ -33,7 +33,7 @@ namespace Debond
             double(point.sticks ? PointStatus::stick : PointStatus::slip),
             2. * M_PI * r * R / n, 1.,
             model.disk.friction->decay(point.slip).value,
-            point.traction == 0. ? 0. : 90.;
+            point.traction == 0. ? 0. : 90., 0., 0.;
           points.push_back(values);
         }
       return points;

@@ -143,6 +143,20 @@ namespace Debond
                        "the bone, which is no contact face, and is pressed on "
                        "its top instead. Raise the implant before it comes, or "
                        "enlarge Bone / Size");
+      const double cell   = std::sqrt(interface.implant_area() /
+                                    system.implant.surface().n_elements());
+      const auto  &points = interface.get_points();
+      const auto   n_left =
+        std::count_if(points.begin(), points.end(), [cell](const auto &point) {
+          const PointHistory &state = point.trial.state;
+          return state.crushed > 0. && state.slip - state.crushed_at > cell;
+        });
+      if (n_left > 0 && interface.slave_side() == Side::implant)
+        note("dents",
+             Text() << n_left
+                    << " points have slid by more than a cell since they "
+                       "crushed the bone, and take their dents along: with "
+                       "Expert / Interface / Slave = bone these stay");
       if (interface.n_enclosed() > 0.1 * summary.n_closed)
         note("enclosed",
              Text() << interface.n_enclosed()

@@ -131,8 +131,8 @@ namespace Debond
              i < std::min(column + 1, n - 1);
              ++i)
           {
-            const unsigned int           k = first + i + j * n;
-            Eigen::Matrix<double, 13, 4> corners;
+            const unsigned int k = first + i + j * n;
+            Eigen::Matrix<double, InterfacePoint::SizeAtCompileTime, 4> corners;
             corners << points[k], points[k + 1], points[k + n],
               points[k + n + 1];
             if (std::abs(corners(0, 3) - corners(0, 0)) > 0.5 * width ||
@@ -351,6 +351,10 @@ namespace Debond
     std::vector<unsigned int> shown{3, 5, 6, 7, column_of_state};
     if (scene.interface.joint()->pulls())
       shown.insert(shown.end(), {10, 11, 12});
+    if (scene.interface.bone_layer.crushes())
+      shown.push_back(13);
+    if (scene.interface.bone_layer.shears())
+      shown.push_back(14);
     const auto  names = split_list(interface_columns);
     std::string table = "event,step,time,angle_deg,x_mm,y_mm";
     for (const unsigned int column : shown)

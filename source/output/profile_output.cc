@@ -32,7 +32,8 @@ namespace Debond
           values << place, std::hypot(X[0], X[1]), traction.pressure,
             traction.tangential.norm(), trial.state.slip, coefficient.phi,
             coefficient.mu, double(interface.status(point)), point.JxW, left[0],
-            left[1], traction.mode_deg();
+            left[1], traction.mode_deg(), trial.state.crushed,
+            trial.state.sheared;
           points.push_back(values);
         }
     return points;

@@ -197,6 +197,31 @@ namespace Debond
 
 
 
+    /** Bone that is crushed under a constant pressure bears no larger force. */
+    void
+    check_crushing(const Scene &scene)
+    {
+      constexpr auto   push = ChuckComponent::translation_z;
+      const BoneLayer &bone = scene.interface.bone_layer;
+      const double     area = scene.implant.geometry().area;
+      if (!bone.crushes() || bone.crushing_modulus > 0. || area == 0. ||
+          !scene.chuck.component[push].loaded ||
+          scene.implant.geometry().is_in_bore())
+        return;
+      const auto   values = scene.sampled_values(push);
+      const double force  = -*std::min_element(values.begin(), values.end());
+      if (force > bone.crushing_strength * area)
+        throw EntryError("Interface / Crushing strength",
+                         "with Crushing modulus = 0 the face, " +
+                           to_text(area, 4) + " mm^2, bears " +
+                           to_text(bone.crushing_strength * area, 4) +
+                           " N at most, and the scene presses it with " +
+                           to_text(force, 4) + " N",
+                         to_text(bone.crushing_strength));
+    }
+
+
+
     /** What has no rate. */
     void
     check_rate(const Scene &scene)
@@ -295,6 +320,7 @@ namespace Debond
     load_steps.check();
     check_start_of_friction(interface, load_steps);
     check_rate(*this);
+    check_crushing(*this);
     // its error is of first order, and nothing estimates it
     if (load_steps.adaptive && interface.explicit_friction)
       throw EntryError("Expert / Friction update",

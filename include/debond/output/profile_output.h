@@ -18,13 +18,13 @@ namespace Debond
    *  g_s [mm], bonding state phi, friction coefficient mu, PointStatus, area
    *  that the point stands for [mm^2], the parts of the bond that opening and
    *  slip have left (InterfaceLaw::left_by_each()), PointTraction::mode_deg()
-   * [deg]. */
-  using InterfacePoint = Eigen::Matrix<double, 13, 1>;
+   * [deg], the depth of crushed bone and the distance slid in bone [mm]. */
+  using InterfacePoint = Eigen::Matrix<double, 15, 1>;
 
   /** Their names. */
   constexpr const char *interface_columns =
     "x_mm,y_mm,r_mm,pressure_MPa,traction_MPa,slip_mm,phi,mu,state,area_mm2,"
-    "left_by_opening,left_by_slip,mode_deg";
+    "left_by_opening,left_by_slip,mode_deg,crushed_mm,sheared_mm";
   constexpr unsigned int column_of_state = 8;
 
   /** Those of the slave points that face the implant, in the trial state. */

@@ -68,6 +68,11 @@ def curve_of(directory, summary, entries):
         add_marks_of_torque(plot, xs, ys, summary, entries.get("Expert / Output / Reference marks", ""))
     elif xs:
         add_mark(plot, "largest", number(summary["curve"]["at"]), number(summary["curve"]["largest"]))
+    first = number(summary.get("beyond_strength_time"))
+    if first == first:
+        times, _ = columns_of(curve_file(directory), ("time", axes[1]))
+        i = min(range(len(times)), key=lambda i: abs(times[i] - first))
+        add_mark(plot, "bone beyond its strength", xs[i], ys[i])
     return plot.context()
 
 

@@ -225,6 +225,17 @@ namespace Debond
 
 
 
+  void
+  Body::for_each_stress(const Bulk::StressVisitor &visit) const
+  {
+    if (own_bulk)
+      own_bulk->for_each_stress(full_displacement(),
+                                has_small_strains(),
+                                visit);
+  }
+
+
+
   // Force [N] and moment [N mm] of the supports, in the body's frame: what a
   // test bench measures at the top of the implant. Known about the origin, it
   // is moved to the centre: M_C = M_O - C x F.

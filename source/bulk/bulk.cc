@@ -117,4 +117,19 @@ namespace Debond
         stress[vertex] /= n_cells[vertex];
     return stress;
   }
+
+
+
+  void
+  Bulk::for_each_stress(const Eigen::VectorXd &v,
+                        const bool             has_small_strains,
+                        const StressVisitor   &visit) const
+  {
+    for (unsigned int cell = 0; cell < cells.n_cells(); ++cell)
+      {
+        const auto stress = cells.stress(cell, v, has_small_strains);
+        for (unsigned int q = 0; q < stress.size(); ++q)
+          visit(cell, cells.point(q), stress[q], cells.volume(cell, q));
+      }
+  }
 } // namespace Debond

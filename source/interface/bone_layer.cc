@@ -39,9 +39,16 @@ namespace Debond
 
 
 
-  // p = eps_n (-g_n - c) while that is no more than the strength p_c + H c;
-  // beyond, c grows until it is. In the paper's terms Eq. (28) along the normal
-  // with a gap that has a plastic part.
+  // A return mapping of plasticity in one dimension. The trial is elastic, p =
+  // eps_n (-g_n - c_n), Eq. (28) along the normal with a gap that has a plastic
+  // part. If it is more than the strength at the depth c_n, which is p_c + H
+  // c_n, the bone is crushed until both are the same,
+  //
+  //   eps_n (-g_n - c) = p_c + H c,   c - c_n = (trial - strength)/(eps_n + H).
+  //
+  // The tangent is that of two springs in series, eps_n and H; with H = 0 it
+  // vanishes, and nothing but the bodies holds the point. On a way that only
+  // goes deeper the end does not depend on the steps, as both sides are linear.
   BoneLayer::Push
   BoneLayer::push(const double eps_n, const double gap, const double c_n) const
   {
@@ -59,6 +66,8 @@ namespace Debond
 
 
 
+  // The integral of p_c + H c: all of it is lost. What the spring eps_n stores
+  // is p^2 / (2 eps_n) all the while, and comes back.
   double
   BoneLayer::work(const double before, const double after) const
   {

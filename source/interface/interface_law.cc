@@ -70,11 +70,23 @@ namespace Debond
 
 
 
-  // No interface carries more shear than the bone beside it. What friction and
-  // viscosity hold against the distance d_f that the faces slide is at most
-  // tau_b; the rest of the distance is sliding in the bone, which leaves g_s as
-  // it is, unless that is to wear the bond, too. Where friction alone holds
-  // tau_b without sliding d_f is 0.
+  // No interface carries more shear than the bone beside it. Interface and bone
+  // are in series: both carry the same traction, and what slides is the weaker
+  // one. In a step the faces slide by d_f, as far as it takes until friction
+  // and viscosity together hold tau_b,
+  //
+  //   L(d_f) + eta/dt d_f = tau_b,
+  //
+  // and the rest of the distance is sliding in the bone, which leaves g_s as it
+  // is, unless that is to wear the bond, too. Where friction alone holds tau_b
+  // at rest d_f is 0; where it never holds that much d_f is all of the
+  // distance, and nothing of this is seen. A law that softens within the step
+  // from above tau_b to below it so slides in the bone to its end: the bond has
+  // not slid yet, and cannot have softened.
+  //
+  // The traction is tau_b, whatever gap and distance, so that its derivatives
+  // vanish. Faces that climb as they slide are pushed apart by d_f only, which
+  // depends on the gap by the equation above: hence the additional dp/dg_n.
   InterfaceResponse
   InterfaceLaw::respond_in_bone(const PointStart &start,
                                 const double      g_n,

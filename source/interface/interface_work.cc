@@ -215,9 +215,12 @@ namespace Debond
 
 
 
-  // Of bone that is crushed the trapezoid takes the mean pressure of both ends,
-  // and the law what it has taken since it began. In shear it bears the same
-  // all the while.
+  // Of bone that is crushed the trapezoid takes the mean pressure of both ends:
+  // with the trapezoid of the gap, (p_n + p)(g_n - g)/2, and what the spring
+  // stores before and after, p^2 / (2 eps_n), nothing else is left of the work.
+  // The law takes what crushing costs, which is less where it began within the
+  // step; the difference is a bound. In shear bone bears the same all the
+  // while, so that both agree.
   void
   InterfaceWork::add_bone(const SlavePoint   &point,
                           const InterfaceLaw &law,

@@ -47,7 +47,11 @@ namespace Debond
 
 
 
-    // f = factor p, with monotone cubics between the rows, constant beyond.
+    // f = factor p, with monotone cubics between the rows, constant beyond:
+    // what a table does not say is not extrapolated. The slope of the factor
+    // jumps at both ends of the table; p is hardly ever just there, and
+    // Newton's method passes such a kink as it passes those of the bond. The
+    // factor must not vanish, as points without a limit are pulled along.
     Dependence
     of_table(const std::string &filename)
     {
@@ -73,7 +77,9 @@ namespace Debond
                          "expected at least four rows of pressure_MPa and "
                          "factor",
                          filename);
-      // where f falls a point that is pressed harder would hold less
+      // A factor that falls faster than 1/p makes f fall: a point that is
+      // pressed harder then holds less. That is odd, but no law forbids it, and
+      // the tangent is right: measured tables may say so between two rows.
       const MonotoneCurve curve(pressure, factor);
       return [curve](const double p) -> Effective {
         const double within = std::clamp(p, curve.first(), curve.last()),
@@ -85,6 +91,11 @@ namespace Debond
 
 
 
+    // A friction law that is asked with f(p) wherever it would be asked with
+    // p: for the limit, for works, and for the steepest fall, by which
+    // uniqueness is judged. What it remembers, and the decay of its bond, know
+    // no pressure and are its own. Its copy of what the law says of itself,
+    // kinks and lengths, makes it look the same from outside.
     class UnderEffectivePressure : public FrictionLaw
     {
     public:
@@ -94,7 +105,8 @@ namespace Debond
         , f(std::move(f))
       {}
 
-      // dL/dp = mu df/dp
+      // By the chain rule dL/dp = (dL/df) df/dp; derivatives by bond and
+      // distance are those at f(p) already.
       FrictionLimit
       limit(const PointStart &start,
             const double      phi,
@@ -113,6 +125,8 @@ namespace Debond
         return law->advance(start, distance);
       }
 
+      // At a constant pressure f is constant, too; the mean over both ends of a
+      // step is formed by the law of the interface.
       PointWork
       work(const PointStart &start,
            const double      pressure,
@@ -172,6 +186,9 @@ namespace Debond
 
 
 
+  // Made once, where a scene is read. A law that is not changed stays the
+  // object that it was, so that scenes without these entries are asked the
+  // shortest way.
   FrictionLawPointer
   PressureDependence::of(const FrictionLawPointer &law) const
   {

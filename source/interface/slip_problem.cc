@@ -86,8 +86,10 @@ namespace Debond
     if (!towed)
       find_distance();
     response = point.joint().respond(point.start, g_n, distance);
-    // It resists as fast as the point moves, and pulls where a trial moves
-    // backwards.
+    // It resists as fast as the faces slide, and pulls where a trial moves
+    // backwards. Where the bone shears the faces slide by a part of the
+    // distance, and both together hold what the bone bears, whatever the rest
+    // of the distance is.
     resistance = response.resists ? point.viscous : 0.;
     limit      = response.limit + resistance * response.rubbed;
     slope      = response.limit_by_slip + (response.shears ? 0. : resistance);

@@ -299,7 +299,8 @@ namespace Debond
           {"reason", reason},
           {"wall_seconds", seconds.at("all")}};
         facts.update(fields.measures());
-        facts.update(bone_measures(simulation.scene, system.interface));
+        facts.update(
+          bone_measures(simulation.scene, system.interface, simulation.rows()));
         if (const auto *const effort_of_multigrid = system.multigrid_effort())
           facts.update(
             {{"processes", Ranks::number()},

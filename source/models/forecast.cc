@@ -39,6 +39,23 @@ namespace Debond
 
 
 
+  namespace
+  {
+    /** p [MPa]: where bone is crushed to c, p_c + H c is left of what the fit
+     *  asks for. */
+    double
+    pressure_on(const BoneLayer &bone, const LameFit &fit)
+    {
+      const double p = fit.pressure(), H = bone.crushing_modulus;
+      return bone.crushes() && p > bone.crushing_strength ?
+               (H * fit.half_interference + bone.crushing_strength) /
+                 (H * (fit.bodies + fit.interface) + 1.) :
+               p;
+    }
+  } // namespace
+
+
+
   // All points slide at once, under the same pressure.
   void
   Forecast::of_press_fit(const Scene &scene, const LameFit &fit)
@@ -66,20 +83,15 @@ namespace Debond
       why = "ends of the bone or of the implant matter";
     if (!why.empty())
       return;
-    // where bone is crushed to c, p_c + H c is left of what the fit asks for
-    const BoneLayer &layer = interface.bone_layer;
-    const double     H     = layer.crushing_modulus;
-    pressure               = fit.pressure();
-    if (layer.crushes() && pressure > layer.crushing_strength)
-      pressure = (H * fit.half_interference + layer.crushing_strength) /
-                 (H * (fit.bodies + fit.interface) + 1.);
+    pressure = pressure_on(interface.bone_layer, fit);
     error += 0.01;
     if (interface.law_choice.law != "friction" || interface.viscosity > 0. ||
         interface.bonding_of_law().pattern != BondingPatternKind::homogeneous)
       return;
-    const double phi_0 = interface.bonding_of_law().initial_bonding;
-    const double tau_b = layer.shears() ? layer.shear_strength : HUGE_VAL;
-    const auto   limit = [&](const double phi) {
+    const double     phi_0 = interface.bonding_of_law().initial_bonding;
+    const BoneLayer &bone  = interface.bone_layer;
+    const double     tau_b = bone.shears() ? bone.shear_strength : HUGE_VAL;
+    const auto       limit = [&](const double phi) {
       return std::min(tau_b,
                       interface.friction->limit({}, phi, pressure, 0.).value);
     };
@@ -87,7 +99,7 @@ namespace Debond
     double       slip = way - most / interface.tangential_stiffness();
     if (!(slip > 0.))
       return;
-    if (most == tau_b && !layer.shear_wears_bond)
+    if (most == tau_b && !bone.shear_wears_bond)
       slip = 0.; // of the interface
     // around the pole of a cup it slides less, or not at all: of the torque
     // the part within an angle x of it is 4 x^3 / (3 pi)

@@ -597,6 +597,7 @@ namespace Debond
     row.crushed_Nmm         = interface.work().crushed;
     row.sheared_Nmm         = interface.work().sheared;
     row.share_shears        = summary.share_shears;
+    row.beyond_strength_mm3 = state_checks.beyond_strength().volume_mm3;
     row.warnings            = state_checks.take_violations();
     // With a compliant machine the scene prescribes the place of the machine,
     // ahead of the chuck's by T / k or F / k.

@@ -106,6 +106,48 @@ namespace Debond
 
 
     void
+    check_strength(const BeyondStrength &beyond, const Note &note)
+    {
+      const char *const kinds[] = {"Tensile", "Compressive"};
+      for (const unsigned int k : {0, 1})
+        if (beyond.ratio[k] > 1.)
+          note(std::string(kinds[k]) + " strength",
+               Text() << "a principal stress of the bone is "
+                      << to_text(beyond.stress_MPa[k], 4) << " MPa at ("
+                      << to_text(beyond.X[k][0], 3) << ", "
+                      << to_text(beyond.X[k][1], 3) << ", "
+                      << to_text(beyond.X[k][2], 3) << ") mm, beyond Bone / "
+                      << kinds[k] << " strength; in all "
+                      << to_text(beyond.volume_mm3, 3)
+                      << " mm^3 are. The model goes on with elastic bone");
+    }
+
+
+
+    // Dents are history of the slave's points.
+    void
+    check_dents(const CoupledSystem &system, const Note &note)
+    {
+      const ContactInterface &interface = system.interface;
+      const double            cell      = std::sqrt(interface.implant_area() /
+                                    system.implant.surface().n_elements());
+      const auto             &points    = interface.get_points();
+      const auto              n_left =
+        std::count_if(points.begin(), points.end(), [cell](const auto &point) {
+          const PointHistory &state = point.trial.state;
+          return state.crushed > 0. && state.slip - state.crushed_at > cell;
+        });
+      if (n_left > 0 && interface.slave_side() == Side::implant)
+        note("dents",
+             Text() << n_left
+                    << " points have slid by more than a cell since they "
+                       "crushed the bone, and take their dents along: with "
+                       "Expert / Interface / Slave = bone these stay");
+    }
+
+
+
+    void
     check_interface(const ModelParameters  &parameters,
                     const CoupledSystem    &system,
                     const InterfaceSummary &summary,
@@ -143,20 +185,6 @@ namespace Debond
                        "the bone, which is no contact face, and is pressed on "
                        "its top instead. Raise the implant before it comes, or "
                        "enlarge Bone / Size");
-      const double cell   = std::sqrt(interface.implant_area() /
-                                    system.implant.surface().n_elements());
-      const auto  &points = interface.get_points();
-      const auto   n_left =
-        std::count_if(points.begin(), points.end(), [cell](const auto &point) {
-          const PointHistory &state = point.trial.state;
-          return state.crushed > 0. && state.slip - state.crushed_at > cell;
-        });
-      if (n_left > 0 && interface.slave_side() == Side::implant)
-        note("dents",
-             Text() << n_left
-                    << " points have slid by more than a cell since they "
-                       "crushed the bone, and take their dents along: with "
-                       "Expert / Interface / Slave = bone these stay");
       if (interface.n_enclosed() > 0.1 * summary.n_closed)
         note("enclosed",
              Text() << interface.n_enclosed()
@@ -339,6 +367,9 @@ namespace Debond
           parameters, system, summary, before.forces, released_energy, note);
       }
     check_interface(parameters, system, summary, note);
+    check_dents(system, note);
+    beyond = Debond::beyond_strength(system.bone);
+    check_strength(beyond, note);
     ask_for_strains(system, summary.max_traction);
 
     // Planned turns are divided; jumps and loaded chucks turn as far as they

@@ -1,5 +1,6 @@
 #include <debond/interface/contact_interface.h>
 #include <debond/output/bone_measures.h>
+#include <debond/output/torque_curve.h>
 #include <debond/scene/scene.h>
 
 #include <algorithm>
@@ -9,7 +10,9 @@ namespace Debond
   // The last state, and what the layer of bone has taken on the way. Half of
   // what an interference is less than nominal is the mean depth of the dent.
   nlohmann::ordered_json
-  bone_measures(const Scene &scene, const ContactInterface &interface)
+  bone_measures(const Scene                  &scene,
+                const ContactInterface       &interface,
+                const std::vector<TorqueRow> &rows)
   {
     const BoneLayer       &bone   = interface.get_law().bone;
     nlohmann::ordered_json result = nlohmann::ordered_json::object();
@@ -43,6 +46,19 @@ namespace Debond
       result.update({{"share_sheared", sheared / area},
                      {"sheared_mm", furthest},
                      {"sheared_Nmm", interface.work().sheared}});
+    if (scene.bone.tensile_strength > 0. ||
+        scene.bone.compressive_strength > 0.)
+      {
+        double most = 0.;
+        for (const TorqueRow &row : rows)
+          {
+            if (most == 0. && row.beyond_strength_mm3 > 0.)
+              result.update({{"beyond_strength_step", row.step},
+                             {"beyond_strength_time", row.time}});
+            most = std::max(most, row.beyond_strength_mm3);
+          }
+        result["beyond_strength_mm3"] = most;
+      }
     return result;
   }
 } // namespace Debond

@@ -462,8 +462,11 @@ namespace Debond
                to_text(100. * fit->interface / (fit->interface + fit->bodies),
                        2) +
                " % of the Interference: the pressure is some " +
-               to_text(fit->pressure(), 3) +
-               " MPa, where the bodies alone would have " +
+               to_text(fit->pressure(), 3) + " MPa" +
+               (scene.interface.bone_layer.crushes() ?
+                  " as far as the bone is not crushed" :
+                  "") +
+               ", where the bodies alone would have " +
                to_text(fit->half_interference / fit->bodies, 3) +
                " MPa; interfaces between hard faces have 1e4 to 1e6 MPa/mm");
     }

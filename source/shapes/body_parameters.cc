@@ -5,6 +5,7 @@
 #include <debond/support/input_error.h>
 
 #include <regex>
+#include <tuple>
 #include <utility>
 
 namespace Debond
@@ -406,6 +407,30 @@ namespace Debond
 
 
 
+  namespace
+  {
+    void
+    declare_strengths(BodyParameters &bone, EntryTable &table)
+    {
+      for (const auto &[name, strength, is_beyond] :
+           {std::tuple("Tensile strength",
+                       &bone.tensile_strength,
+                       "the largest principal stress is above it"),
+            {"Compressive strength",
+             &bone.compressive_strength,
+             "the smallest principal stress is below minus it"}})
+        table.add(
+          name,
+          *strength,
+          Allowed::number_between(1e-9, 1e9, "MPa").or_word_for("none", "0"),
+          std::string("Strength [MPa] of the bulk of the bone: the run "
+                      "says when, where and in how much volume ") +
+            is_beyond + ", and goes on with elastic bone. `none': not asked.");
+    }
+  } // namespace
+
+
+
   void
   BodyParameters::declare_material(EntryTable &table, const bool is_bone)
   {
@@ -452,6 +477,8 @@ namespace Debond
               "Poisson's ratio nu, dimensionless. Trilinear cells lock as it "
               "approaches 0.5: above 0.45 the program warns, above 0.49 it "
               "refuses. Not used by a rigid body.");
+    if (is_bone)
+      declare_strengths(*this, table);
     table.add(
       "Expert / Contact surface",
       contact_surface,

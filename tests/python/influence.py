@@ -54,10 +54,10 @@ FITS = {"torque": (RIGID + TWISTED, "auto", "auto"), "torque and force": (RIGID 
         "angle over time": (RIGID + TWISTED, "time", "chuck_rz_deg"), "clockwise": (RIGID + TWISTED.replace("2 * max", "-2 * max"), "auto", "auto"),
         "foundation": (BROAD_RUNS["foundation"], "auto", "auto")}
 # What scenes do not come to: nothing opens while it is pressed, what looks the same from all sides stays on its axis, and what is
-# pulled straight off slides nowhere.
+# pulled straight off slides nowhere, and is not pressed.
 OPENS = "Interface / Opening breaks bond|Output / Friction energy"
 ON_AXIS = OPENS + "|Chuck / (Translation|Rotation) [xy] / (Control|Stiffness)"
-SLIDES_NOWHERE = "Output / Friction energy|Interface / (Characteristic|Friction coefficient|Transition)"
+SLIDES_NOWHERE = "Output / Friction energy|Interface / (Characteristic|Friction coefficient|Transition|Crushing|Bone shear)"
 ONE_LAYER = ON_AXIS + "|(Bone|Implant) / Layer grading"
 STATE = {"linear coin": ONE_LAYER, "linear coin, adaptive": ONE_LAYER,
          "random patches": OPENS,

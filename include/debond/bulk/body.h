@@ -188,6 +188,9 @@ namespace Debond
     /** Cauchy stress at the mesh vertices, see Bulk. @p v: of all nodes. */
     std::vector<Eigen::Matrix3d>
     vertex_stress(const Eigen::VectorXd &v) const;
+    /** The same at all Gauss points; none of a rigid body. */
+    void
+    for_each_stress(const Bulk::StressVisitor &visit) const;
     /** Error of small strains: by how much large strains and rotations would
      *  change its trial state under the same contact forces: Newton's
      *  first correction of a Neo-Hookean body, over the displacement, in the

@@ -73,6 +73,18 @@ namespace Debond
      */
     std::vector<Eigen::Matrix3d>
     vertex_stress(const Eigen::VectorXd &v, bool has_small_strains) const;
+
+    /** Takes the number of a cell, a Gauss point of the unit cell, the Cauchy
+     *  stress there [MPa], and the volume that it stands for [mm^3]. */
+    using StressVisitor = std::function<void(unsigned int,
+                                             const dealii::Point<3> &,
+                                             const Eigen::Matrix3d &,
+                                             double)>;
+    /** Visits all Gauss points of the cells of this rank. */
+    void
+    for_each_stress(const Eigen::VectorXd &v,
+                    bool                   has_small_strains,
+                    const StressVisitor   &visit) const;
     /** Young's modulus of a cell [MPa], the mean over its Gauss points. */
     double
     young_modulus(const unsigned int cell) const

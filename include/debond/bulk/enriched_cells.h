@@ -58,6 +58,19 @@ namespace Debond
             const Eigen::VectorXd &v,
             Eigen::MatrixXd       &K) const;
 
+    /** Volume that a Gauss point of a cell stands for [mm^3], and where it is
+     *  in the unit cell. */
+    double
+    volume(const unsigned int cell, const unsigned int q) const
+    {
+      return JxW[quadrature.size() * kinds[cell] + q];
+    }
+    const dealii::Point<3> &
+    point(const unsigned int q) const
+    {
+      return quadrature.point(q);
+    }
+
     /** Cauchy stress at the Gauss points of a cell [MPa], P F^T / J or, with
      *  small strains, C(0) : H. */
     std::vector<Eigen::Matrix3d>

@@ -5,7 +5,10 @@ namespace Debond
   class EntryTable;
 
   /** A thin layer of bone in series with the interface, which is crushed by
-   *  pressure and gives way to shear. Entries of `Interface`. */
+   *  pressure and gives way to shear; both are off by default. Its history is
+   *  that of a point, PointHistory::crushed and sheared. Entries of
+   *  `Interface`; equations in doc/explanation/bone.md. All functions are pure.
+   */
   struct BoneLayer
   {
     double crushing_strength = 0; ///< p_c [MPa]; 0: none
@@ -36,8 +39,9 @@ namespace Debond
       double energy;   ///< stored [N/mm]
       double crushed;  ///< c [mm]
     };
-    /** Of a spring of the @p stiffness eps_n [MPa/mm] at the gap @p g_n + c_n
-     *  that is left over bone which was @p crushed by c_n before [mm]. */
+    /** Pressure, tangent, energy and new depth at the end of a step: of a
+     * spring of the @p stiffness eps_n [MPa/mm] at the gap @p g_n + c_n that is
+     * left over bone which was @p crushed by c_n before [mm]. */
     Push
     push(double stiffness, double gap_left, double crushed) const;
 

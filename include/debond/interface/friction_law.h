@@ -30,8 +30,9 @@ namespace Debond
      *  what the number means is that law's own affair. */
     double            damage = 0;
     InternalVariables internal{};
-    /** Depth to which the bone at the point is crushed [mm], and the sliding
-     *  distance up to which it was [mm]. */
+    /** Depth to which the bone at the point is crushed [mm], see BoneLayer; and
+     *  the sliding distance that the point had come to then [mm], which tells
+     *  how far it has taken its dent along. */
     double crushed = 0, crushed_at = 0;
     double sheared = 0; ///< distance that it has slid in the bone [mm]
 

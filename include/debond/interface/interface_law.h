@@ -119,11 +119,13 @@ namespace Debond
             const double      g_n,
             const double      distance) const
     {
-      InterfaceResponse result;
+      // Laws give answer(); what the bone bears of it is the same for all, and
+      // is asked here alone. Most scenes have bone that bears all, and pay one
+      // comparison for it.
       if (bone.shears())
         return respond_in_bone(start, g_n, distance);
-      result        = answer(start, g_n, distance);
-      result.rubbed = distance;
+      InterfaceResponse result = answer(start, g_n, distance);
+      result.rubbed            = distance;
       return result;
     }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <debond/interface/contact_interface.h>
+#include <debond/output/bone_strength.h>
 #include <debond/scene/scene.h>
 #include <debond/system/chuck_path.h>
 #include <debond/system/energy_balance.h>
@@ -71,6 +72,11 @@ namespace Debond
     {
       return released_energy;
     }
+    const BeyondStrength &
+    beyond_strength() const
+    {
+      return beyond;
+    }
     /** How many checks were not passed by a state since the last call. */
     unsigned int
     take_violations()
@@ -107,5 +113,6 @@ namespace Debond
     /** The largest Body::change_at_large_strains(), by side. */
     std::array<double, 2> change_at_strains{{0., 0.}};
     std::set<std::string> violated; ///< since the last row
+    BeyondStrength        beyond;   ///< of the last state
   };
 } // namespace Debond

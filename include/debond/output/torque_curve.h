@@ -60,6 +60,8 @@ namespace Debond
     /** Parts of dissipation_Nmm, of bone that is crushed and sheared. */
     double crushed_Nmm = 0, sheared_Nmm = 0;
     double share_shears = 0; ///< slides in the bone
+    /** Bone whose principal stresses are beyond its strengths. */
+    double beyond_strength_mm3 = 0;
 
     /** What the curve between rows is drawn of: torque [N mm], chuck_reaction
      *  and chuck_position. */
@@ -121,6 +123,7 @@ namespace Debond
       visit("crushed_Nmm", crushed_Nmm);
       visit("sheared_Nmm", sheared_Nmm);
       visit("share_shears", share_shears);
+      visit("beyond_strength_mm3", beyond_strength_mm3);
     }
 
     /** See serialization.h. */

@@ -107,9 +107,11 @@ namespace Debond
      *  are; see read_modulus(). */
     std::string modulus_expression, voxel_file, voxel_corner = "centred";
     std::shared_ptr<const ModulusField> modulus; ///< null: young_modulus
-    double                              poisson_ratio   = 0.3;
-    SurfaceKind                         contact_surface = SurfaceKind::nurbs;
-    BulkSolver bulk_solver = BulkSolver::automatic; ///< bone
+    double                              poisson_ratio = 0.3;
+    /** Of the bone, for messages [MPa]; 0: not known. */
+    double      tensile_strength = 0, compressive_strength = 0;
+    SurfaceKind contact_surface = SurfaceKind::nurbs;
+    BulkSolver  bulk_solver     = BulkSolver::automatic; ///< bone
 
     /** Whether the body does not deform, and has no unknowns. */
     bool

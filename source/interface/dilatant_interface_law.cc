@@ -51,6 +51,11 @@ namespace Debond
         // Climbing takes p dh of the work L dg_s = mu p dg_s: h' = h_inf/l at
         // the start is the steepest, and mu without a bond is what there is in
         // the end.
+        if (bone.shears() && bone.shear_wears_bond)
+          throw EntryError("Interface / Shear in bone wears bond",
+                           "with Law = dilatant faces would climb as bone "
+                           "slides: expected false",
+                           "true");
         const double least = friction->coefficient({0.}, 0.).mu;
         if (!depends_on_rate() && h_inf > least * l)
           throw EntryError(

@@ -227,8 +227,8 @@ namespace Debond
         history.slip     = start.history.slip + distance;
         history.internal = friction->advance(start, distance);
       }
-    if (history.crushed > start.history.crushed)
-      history.crushed_at = history.slip;
+    if (start.history.crushed == 0.)
+      history.crushed_at = slid(history);
     return history;
   }
 

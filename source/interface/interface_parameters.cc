@@ -13,11 +13,19 @@ namespace Debond
   InterfaceParameters::declare(EntryTable &table)
   {
     table.enter_subsection("Interface");
-    table.add("Expert / Slave",
-              slave,
-              Allowed::choice("bone | implant"),
-              "Body whose contact face has the quadrature points, which are "
-              "projected onto the other body, the master.");
+    table.add(
+      "Expert / Slave",
+      slave_is_auto ? "auto" : entry_text(slave),
+      [this](const std::string &text) {
+        slave_is_auto = text == "auto";
+        if (!slave_is_auto)
+          read_entry(text, slave);
+      },
+      Allowed::choice("auto | bone | implant"),
+      "Body whose contact face has the quadrature points, which are "
+      "projected onto the other body, the master. `auto': the implant, or "
+      "with a Crushing strength and an implant in a bore the bone, whose dents "
+      "then stay where they were made.");
     table.add(
       "Expert / Quadrature points",
       quadrature_points == 0 ? "auto" : entry_text(quadrature_points),

@@ -278,14 +278,17 @@ namespace Debond
   {
     // a bound over the distance of this step and what is still to come, by the
     // law
-    if (point.trial.state.status == PointStatus::shears &&
-        !law.joint->bone.shear_wears_bond)
+    const PointStart start = point.begin(*law.joint, mode_now);
+    const BoneLayer &bone  = law.joint->bone;
+    // faces that hold more than the bone do not slide, and cannot soften
+    if (bone.shears() && !bone.shear_wears_bond &&
+        law.joint->respond(start, point.trial.normal_gap, 0.).limit >=
+          bone.shear_strength)
       return;
-    const double slope =
-      law.joint->softening_by_slip(point.begin(*law.joint, mode_now),
-                                   point.trial.pressure,
-                                   point.trial.state.slip -
-                                     point.accepted.slip);
+    const double slope     = law.joint->softening_by_slip(start,
+                                                      point.trial.pressure,
+                                                      point.trial.state.slip -
+                                                        point.accepted.slip);
     const double softening = slope / resistance;
     if (softening > summary.steepest_softening)
       {

@@ -164,13 +164,17 @@ namespace Debond
     // positive where sliding costs energy [N mm]. With the tractions at the end
     // alone it is negative only where points slide along their traction, which
     // no law of friction does.
-    step_dissipation += trial.tangential_traction.dot(slip);
     dissipation += 0.5 * (old_traction + trial.tangential_traction).dot(slip);
     // The viscous traction is anything between its two ends. It stands in both
     // balances, of which the second takes the law for the rest.
+    const double in_bone = trial.state.sheared - point.accepted.sheared,
+                 slid    = trial.state.slip - point.accepted.slip -
+                        (law.bone.shear_wears_bond ? in_bone : 0.),
+                 of_faces = in_bone > 0. ? slid / (slid + in_bone) : 1.;
     const double viscous_slip =
-      0.5 * (frame * point.accepted_viscous_traction + trial.viscous_traction)
-              .dot(slip);
+      0.5 * of_faces *
+      (frame * point.accepted_viscous_traction + trial.viscous_traction)
+        .dot(slip);
     // the same across the interface, whichever way the gap goes
     const bool   was_open = point.accepted.normal_gap == PointHistory::far;
     const double opened =
@@ -186,12 +190,19 @@ namespace Debond
     // By the law: the exact integral over the slip at the pressures of both
     // ends, which a step that follows equilibrium comes to, too, as steps
     // shrink.
-    const PointStart start   = point.begin(law, mode);
-    const double     in_bone = trial.state.sheared - point.accepted.sheared,
-                 slid        = trial.state.slip - point.accepted.slip -
-                        (law.bone.shear_wears_bond ? in_bone : 0.);
-    const PointWork by_law = law.work(start, trial.normal_gap, slid);
-    add_bone(point, law, start, in_bone);
+    const PointStart start  = point.begin(law, mode);
+    PointWork        by_law = law.work(start, trial.normal_gap, slid);
+    // A bond that wears as the bone slides may fall from above tau_b to below
+    // it within the step: what its law would have taken beyond the bone has not
+    // let through.
+    if (law.bone.shears())
+      by_law.friction =
+        std::min(by_law.friction, law.bone.shear_strength * slid);
+    add_bone(point, law, start, mode, in_bone);
+    // given back where points slide along their traction, or climb on each
+    // other by more than friction pays for
+    step_dissipation +=
+      trial.tangential_traction.dot(slip) - point.JxW * by_law.lift;
     // where a pattern has moved on, the string bears more than what holds now
     if (law.friction->has_bond() && !slip.isZero(0.))
       {
@@ -220,12 +231,14 @@ namespace Debond
   // stores before and after, p^2 / (2 eps_n), nothing else is left of the work.
   // The law takes what crushing costs, which is less where it began within the
   // step; the difference is a bound. In shear bone bears the same all the
-  // while, so that both agree.
+  // while, so that both agree. Before the first time nothing has been put in
+  // that a trapezoid would have to match, and the law is right.
   void
-  InterfaceWork::add_bone(const SlavePoint   &point,
-                          const InterfaceLaw &law,
-                          const PointStart   &start,
-                          const double        slid)
+  InterfaceWork::add_bone(const SlavePoint       &point,
+                          const InterfaceLaw     &law,
+                          const PointStart       &start,
+                          const ContactPointMode &mode,
+                          const double            slid)
   {
     const ContactPointResult &trial = point.trial;
     const double deeper = trial.state.crushed - point.accepted.crushed;
@@ -236,9 +249,12 @@ namespace Debond
         };
         const double by_law = point.JxW * law.bone.work(point.accepted.crushed,
                                                         trial.state.crushed),
-                     by_trapezoid = 0.5 * point.JxW * deeper *
-                                    (pressure(point.accepted.normal_gap, 0.) +
-                                     trial.pressure - trial.viscous_pressure);
+                     by_trapezoid =
+                       mode.duration == 0. ?
+                         by_law :
+                         0.5 * point.JxW * deeper *
+                           (pressure(point.accepted.normal_gap, 0.) +
+                            trial.pressure - trial.viscous_pressure);
         crushed += by_law;
         dissipation += by_trapezoid;
         friction += by_law;

@@ -46,10 +46,19 @@ namespace Debond
       refuse_if(scene.model == ModelKind::crack && bonding.initial_bonding != 1,
                 "Interface / Bonding / Bonding degree",
                 "this closed form knows a fully bonded surface only");
-      refuse_if(!scene.interface.is_friction_only(),
-                "Interface / Law",
-                "closed forms know friction in proportion to the pressure, "
-                "without strength in tension, on bone that bears all, only");
+      const InterfaceParameters &interface = scene.interface;
+      const BoneLayer           &bone      = interface.bone_layer;
+      for (const auto &[is_set, entry] :
+           {std::pair(interface.law_choice.law != "friction", "Law"),
+            {interface.pressure_dependence.exponent != 1., "Friction exponent"},
+            {!interface.pressure_dependence.is_none(),
+             "Friction over pressure"},
+            {bone.crushes(), "Crushing strength"},
+            {bone.shears(), "Bone shear strength"}})
+        refuse_if(is_set,
+                  std::string("Interface / ") + entry,
+                  "closed forms know friction in proportion to the pressure, "
+                  "without strength in tension, on bone that bears all, only");
       refuse_if(scene.interface.viscosity != 0,
                 "Interface / Viscosity",
                 "closed forms do not depend on the rate");

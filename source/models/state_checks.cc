@@ -133,16 +133,18 @@ namespace Debond
                                     system.implant.surface().n_elements());
       const auto             &points    = interface.get_points();
       const auto              n_left =
-        std::count_if(points.begin(), points.end(), [cell](const auto &point) {
+        std::count_if(points.begin(), points.end(), [&](const auto &point) {
           const PointHistory &state = point.trial.state;
-          return state.crushed > 0. && state.slip - state.crushed_at > cell;
+          return state.crushed > 0. &&
+                 interface.get_law().slid(state) - state.crushed_at > cell;
         });
       if (n_left > 0 && interface.slave_side() == Side::implant)
-        note("dents",
-             Text() << n_left
-                    << " points have slid by more than a cell since they "
-                       "crushed the bone, and take their dents along: with "
-                       "Expert / Interface / Slave = bone these stay");
+        note(
+          "dents",
+          Text() << n_left
+                 << " points have slid by more than a cell since they "
+                    "began to crush the bone, and take their dents along: with "
+                    "Expert / Interface / Slave = bone these stay");
     }
 
 
@@ -231,7 +233,8 @@ namespace Debond
       if (energy_balance.is_given_back(step_dissipation))
         note("dissipation falls",
              "sliding gives energy back: points slide along their traction "
-             "instead of against it");
+             "instead of against it, or climb on each other by more than "
+             "friction pays for");
       if (std::abs(energy_balance.missing_share()) >
           energy_balance.missing_share_bound())
         note("energy balance",

@@ -16,31 +16,33 @@ namespace Debond
   {
     const BoneLayer       &bone   = interface.get_law().bone;
     nlohmann::ordered_json result = nlohmann::ordered_json::object();
-    double area = 0., volume = 0., crushed = 0., sheared = 0., deepest = 0.,
-           furthest = 0.;
+    double area = 0., volume = 0., under = 0., crushed = 0., sheared = 0.,
+           deepest = 0., furthest = 0.;
+    // dents of bone that the implant has left are there still
     for (const SlavePoint &point : interface.get_points())
-      if (point.faces_implant)
-        {
-          const PointHistory &state = point.accepted;
-          area += point.JxW;
-          volume += point.JxW * state.crushed;
-          crushed += state.crushed > 0. ? point.JxW : 0.;
-          sheared += state.sheared > 0. ? point.JxW : 0.;
-          deepest  = std::max(deepest, state.crushed);
-          furthest = std::max(furthest, state.sheared);
-        }
+      {
+        const PointHistory &state = point.accepted;
+        const double        faces = point.faces_implant ? point.JxW : 0.;
+        area += faces;
+        volume += point.JxW * state.crushed;
+        under += faces * state.crushed;
+        crushed += state.crushed > 0. ? faces : 0.;
+        sheared += state.sheared > 0. ? faces : 0.;
+        deepest  = std::max(deepest, state.crushed);
+        furthest = std::max(furthest, state.sheared);
+      }
     if (bone.crushes())
       {
         result.update({{"crushed_volume_mm3", volume},
                        {"crushed_depth_mm", deepest},
                        {"share_crushed", crushed / area},
                        {"crushed_Nmm", interface.work().crushed}});
-        if (scene.interface.has_interference())
+        if (scene.interface.has_interference() && !rows.empty())
           result["effective_interference_mm"] =
             read_time_function(scene.interface.interference,
                                scene.implant.characteristic_radius())(
-              scene.load_steps.times.back()) -
-            2. * volume / area;
+              rows.back().time) -
+            2. * under / area;
       }
     if (bone.shears())
       result.update({{"share_sheared", sheared / area},

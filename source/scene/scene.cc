@@ -283,6 +283,7 @@ namespace Debond
     interface.friction         = interface.pressure_dependence.of(
       create_friction_law(interface.friction_choice));
     check_shapes();
+    interface.take_slave(implant.geometry().is_in_bore());
     implant.make_mesh("Implant", implant);
     bone.make_mesh("Bone", implant);
     for (BodyParameters *const body : {&bone, &implant})

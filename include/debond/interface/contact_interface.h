@@ -160,10 +160,11 @@ namespace Debond
         const Eigen::Matrix3d  &frame);
     /** What the bone beside it takes, which has slid there by @p slid [mm]. */
     void
-    add_bone(const SlavePoint   &point,
-             const InterfaceLaw &law,
-             const PointStart   &start,
-             double              slid);
+    add_bone(const SlavePoint       &point,
+             const InterfaceLaw     &law,
+             const PointStart       &start,
+             const ContactPointMode &mode,
+             double                  slid);
     /** The work of damage of a share that is held. */
     void
     add(const CohesiveShare    &share,

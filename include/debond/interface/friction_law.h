@@ -31,8 +31,8 @@ namespace Debond
     double            damage = 0;
     InternalVariables internal{};
     /** Depth to which the bone at the point is crushed [mm], see BoneLayer; and
-     *  the sliding distance that the point had come to then [mm], which tells
-     *  how far it has taken its dent along. */
+     *  the sliding distance that the point had come to when that began [mm],
+     *  which tells how far it has taken its dent along. */
     double crushed = 0, crushed_at = 0;
     double sheared = 0; ///< distance that it has slid in the bone [mm]
 

@@ -14,9 +14,10 @@ namespace Debond
     /** Body that carries the quadrature points. With the implant each of them
      *  stays in contact while the face slides over the bone, which is wider. */
     Side         slave               = Side::implant;
-    unsigned int quadrature_points   = 0;   ///< per direction, 0: auto
-    double       normal_penalty      = 585; ///< eps_n [MPa/mm]
-    double       tangential_penalty  = 0;   ///< eps_t [MPa/mm], 0: as eps_n
+    bool         slave_is_auto       = true; ///< see take_slave()
+    unsigned int quadrature_points   = 0;    ///< per direction, 0: auto
+    double       normal_penalty      = 585;  ///< eps_n [MPa/mm]
+    double       tangential_penalty  = 0;    ///< eps_t [MPa/mm], 0: as eps_n
     bool         opening_breaks_bond = false;
     /** Never null; made of what a scene says of it, friction_choice. */
     FrictionLawPointer      friction = modified_coulomb();
@@ -33,6 +34,17 @@ namespace Debond
      */
     bool              explicit_friction = false;
     BondingParameters bonding;
+
+    /** Where a bore is crushed the points are the bone's, and dents stay there:
+     *  those of an implant that turns would ride over the ripple of pressure
+     *  between cells, and crush the bone to its maximum. On a block the points
+     *  of the bone would miss the rim of the implant. */
+    void
+    take_slave(const bool is_in_bore)
+    {
+      if (slave_is_auto)
+        slave = bone_layer.crushes() && is_in_bore ? Side::bone : Side::implant;
+    }
 
     bool
     has_interference() const

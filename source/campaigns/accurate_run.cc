@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <utility>
@@ -284,6 +285,11 @@ namespace Debond
          << (coarser ? cells_in_words(*coarser) : "none")
          << (finer_scene(scene) ? "; with more of them if it is larger\n" :
                                   ", as the scene sets its cells\n");
+    // of runs with 1400 to 240 000 unknowns, most within a factor of four
+    if (const double n = n_unknowns_of(scene); n > 0.)
+      text << "both take some " << to_text(4e-5 * std::pow(n, 1.2), 1)
+           << " s; stiff interfaces, and steps that are many, up to four times "
+              "that\n";
     std::string list;
     for (const SceneEntry &entry : scene.completed_entries())
       if (is_among(scene.chosen, entry.full_name()))

@@ -581,7 +581,11 @@ namespace Debond
         works.friction += couple;
         // g_s^n and xi_hat^n of the next step, and what its trapezoids begin
         // with: tangential traction and viscous pressure [MPa].
-        point.accepted          = trial.state;
+        // The way over the master is summed up in its frame: a way back undoes
+        // it there, however the master has turned meanwhile. What is open keeps
+        // what it has come to.
+        point.accepted = trial.state;
+        point.slipped += Q.transpose() * trial.slip_increment;
         point.accepted_traction = Q.transpose() * trial.tangential_traction;
         point.accepted_viscous_traction =
           Q.transpose() * trial.viscous_traction;

@@ -15,11 +15,10 @@ namespace Debond
     table.enter_subsection("Interface");
     table.add(
       "Expert / Slave",
-      slave_is_auto ? "auto" : entry_text(slave),
+      slave_is_auto ? "auto" : name_of(slave),
       [this](const std::string &text) {
         slave_is_auto = text == "auto";
-        if (!slave_is_auto)
-          read_entry(text, slave);
+        slave         = text == "bone" ? Side::bone : Side::implant;
       },
       Allowed::choice("auto | bone | implant"),
       "Body whose contact face has the quadrature points, which are "

@@ -12,6 +12,53 @@
 // by, and what messages say.
 namespace Debond
 {
+  // The way of a point over the master and the stretch of its spring are
+  // vectors in the master's frame, so that a way back undoes the way there, and
+  // the motion of the chuck as a whole is none. Bone grows in where faces move
+  // by less than 28 um and does not where they move by more than 150 um
+  // (Pilliar, Lee and Maniatopoulos 1986).
+  RelativeMotion
+  ContactInterface::relative_motion() const
+  {
+    std::vector<std::pair<double, double>> motions; // [um], area
+    RelativeMotion                         result;
+    double                                 area = 0.;
+    for (const SlavePoint &point : points)
+      if (point.faces_implant)
+        {
+          const double motion = 1e3 * motion_since_mark(point).norm();
+          motions.emplace_back(motion, point.JxW);
+          area += point.JxW;
+          result.mean_um += point.JxW * motion;
+          result.share_above_28_um += motion > 28. ? point.JxW : 0.;
+          result.share_above_150_um += motion > 150. ? point.JxW : 0.;
+        }
+    for (double *const mean : {&result.mean_um,
+                               &result.share_above_28_um,
+                               &result.share_above_150_um})
+      *mean /= area;
+    std::sort(motions.begin(), motions.end());
+    double below = 0.;
+    for (const auto &[motion, own] : motions)
+      {
+        result.percentile_95_um = motion;
+        if ((below += own) >= 0.95 * area)
+          break;
+      }
+    return result;
+  }
+
+
+
+  void
+  ContactInterface::mark_motion()
+  {
+    for (SlavePoint &point : points)
+      point.marked += motion_since_mark(point);
+  }
+
+
+
   // Open, stick or slip of all points in the trial state. Newton's method
   // compares them over its iterations: states of all points that have been
   // there before are a cycle between stick and slip.

@@ -1,3 +1,4 @@
+#include <debond/input/csv_table.h>
 #include <debond/models/debonding_problem.h>
 #include <debond/models/forecast.h>
 #include <debond/models/resumed_run.h>
@@ -278,6 +279,32 @@ namespace Debond
       }
 
       /** Writes summary.json. */
+      /** The last motion goes into @p facts, all of them into motion.csv. */
+      void
+      write_motions(nlohmann::ordered_json &facts) const
+      {
+        const std::vector<RelativeMotion> &motions = simulation.motions();
+        if (motions.empty())
+          return;
+        const RelativeMotion &last = motions.back();
+        facts.update({{"motion_mean_um", last.mean_um},
+                      {"motion_95_um", last.percentile_95_um},
+                      {"motion_share_above_28_um", last.share_above_28_um},
+                      {"motion_share_above_150_um", last.share_above_150_um}});
+        if (scene.output.motion_between.empty())
+          return;
+        std::string table = "from,to,mean_um,percentile_95_um,"
+                            "share_above_28_um,share_above_150_um\n";
+        for (const RelativeMotion &motion : motions)
+          table += csv_line(std::vector<double>{motion.from,
+                                                motion.to,
+                                                motion.mean_um,
+                                                motion.percentile_95_um,
+                                                motion.share_above_28_um,
+                                                motion.share_above_150_um});
+        write_file(directory.file("motion.csv"), table);
+      }
+
       void
       finish(const bool converged, const std::string &reason)
       {
@@ -299,6 +326,7 @@ namespace Debond
           {"reason", reason},
           {"wall_seconds", seconds.at("all")}};
         facts.update(fields.measures());
+        write_motions(facts);
         facts.update(
           bone_measures(simulation.scene, system.interface, simulation.rows()));
         if (const auto *const effort_of_multigrid = system.multigrid_effort())

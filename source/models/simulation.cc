@@ -518,6 +518,7 @@ namespace Debond
         if (scene.has_friction() && scene.has_friction_after(from))
           state_checks.add_motion(row, coupled_system, from, to);
       }
+    mark_motion();
     solver.commit();
     accepted_rates = rates;
     // Energies, jumps, penetration: a check that is not passed does not end the
@@ -611,6 +612,7 @@ namespace Debond
     if (row.step > 0 && scene.load_steps.draws_curve())
       set_rates(row);
     all_rows.push_back(row);
+    add_motion(row.time);
   }
 
 

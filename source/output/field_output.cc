@@ -216,6 +216,7 @@ namespace Debond
                         {"phi", 1},
                         {"mu", 1},
                         {"state", 1},
+                        {"motion_um", 1},
                         {"displacement", 3}};
       if (law.pulls())
         fields.insert(fields.end(),
@@ -251,6 +252,11 @@ namespace Debond
            bonding_values(law, stencil, own, continuous[0]))
         values.push_back(value);
       values.push_back(static_cast<double>(interface.status(*stencil.nearest)));
+      Eigen::Vector3d motion = Eigen::Vector3d::Zero(); // [mm]
+      for (unsigned int a = 0; a < 4; ++a)
+        motion +=
+          stencil.weight[a] * interface.motion_since_mark(*stencil.point[a]);
+      values.push_back(1e3 * motion.norm());
       append_values(values, displacement);
       if (law.pulls())
         {

@@ -306,6 +306,15 @@ namespace Debond
     declare_measures(OutputParameters &output, EntryTable &table)
     {
       table.add(
+        "Motion between",
+        output.motion_between,
+        Allowed::list(Allowed::number("time"), 2, 0).or_word_for("auto", ""),
+        "Times, ascending, between which the motion of the faces along each "
+        "other is measured, slip and elastic gap: for cyclic loads the ends of "
+        "cycles, where it is their drift, or of half cycles. It begins and ends "
+        "with the first rows that come to them: choose Load steps / Times. "
+        "`auto': the first and the last time.");
+      table.add(
         "Expert / Curve angles",
         output.curve_at,
         Allowed::list(Allowed::number_between(-1e6, 1e6, "deg"), 1, 0)

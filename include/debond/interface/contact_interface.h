@@ -62,6 +62,25 @@ namespace Debond
     Eigen::Matrix<double, 6, 1> by_chuck = Eigen::Matrix<double, 6, 1>::Zero();
   };
 
+  /** How far the faces have moved along each other between two times: slip and
+   *  elastic gap, which bone that is to grow in feels both. Of the face of the
+   *  implant. */
+  struct RelativeMotion
+  {
+    double from = 0, to = 0;
+    double mean_um = 0, percentile_95_um = 0;
+    double share_above_28_um = 0, share_above_150_um = 0;
+
+    /** See serialization.h. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &from &to &mean_um &percentile_95_um &share_above_28_um
+        &share_above_150_um;
+    }
+  };
+
   /** What a point carries, as it acts on the slave [MPa]. */
   struct PointTraction
   {
@@ -336,6 +355,19 @@ namespace Debond
     {
       return along;
     }
+    /** Slip and elastic gap of a point since the last mark_motion(), in the
+     *  master's frame [mm]. */
+    Eigen::Vector3d
+    motion_since_mark(const SlavePoint &point) const
+    {
+      return point.slipped + point.accepted_traction / law.tangential_penalty -
+             point.marked;
+    }
+    /** That of all points, without its times. */
+    RelativeMotion
+    relative_motion() const;
+    void
+    mark_motion();
     /** The traction of a point in its trial state, with that of the share that
      *  is held [MPa]. */
     PointTraction

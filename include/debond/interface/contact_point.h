@@ -78,6 +78,10 @@ namespace Debond
     Eigen::Vector3d accepted_traction         = Eigen::Vector3d::Zero();
     Eigen::Vector3d accepted_viscous_traction = Eigen::Vector3d::Zero();
     double          accepted_viscous_pressure = 0; ///< [MPa]
+    /** Sum of the slip of the steps in the master's frame [mm], and what that
+     *  and the elastic gap were at the last mark, see RelativeMotion. */
+    Eigen::Vector3d slipped = Eigen::Vector3d::Zero();
+    Eigen::Vector3d marked  = Eigen::Vector3d::Zero();
   };
 
   /** A quadrature point of the slave surface: where it lies, its history, and
@@ -119,6 +123,7 @@ namespace Debond
         {
           archive &accepted &clearance       &accepted_traction;
           archive &accepted_viscous_traction &accepted_viscous_pressure;
+          archive &slipped                   &marked;
           // what a run that has ended still writes
           archive &trial.pressure &trial.tangential_traction;
           if (Archive::is_loading::value)

@@ -14,6 +14,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -117,6 +118,13 @@ namespace Debond
     {
       return all_warnings;
     }
+    /** Between the times of `Output / Motion between`, as far as they have been
+     *  reached. */
+    const std::vector<RelativeMotion> &
+    motions() const
+    {
+      return all_motions;
+    }
 
     /** What the measures of the torque curve refer to: contact area, initial
      *  bonding and phases. */
@@ -149,8 +157,9 @@ namespace Debond
       archive &so_far.steps &so_far.newton_iterations &so_far.smallest_step;
       archive                                         &accepted_rates;
       std::visit([&archive](auto &chosen) { archive &chosen; }, steps);
+      archive &motion_goes_on &motion_begins;
       if constexpr (!is_in_memory<Archive>) // what a row is appended to
-        archive &all_rows &all_warnings;
+        archive &all_rows &all_warnings &all_motions;
       if (Archive::is_loading::value)
         rates = accepted_rates;
     }
@@ -177,6 +186,15 @@ namespace Debond
     accept(const StepResult &result);
     void
     add_row(const InterfaceSummary &summary, unsigned int iterations);
+    /** @name Motions between times */
+    //@{
+    std::optional<double>
+    next_mark(double time) const;
+    void
+    mark_motion();
+    void
+    add_motion(double time);
+    //@}
     void
     set_rates(TorqueRow &row) const;
     [[noreturn]] void
@@ -189,18 +207,21 @@ namespace Debond
     const Ranks::TeamPointer   team;
     dealii::TimerOutput *const timer;
     // In this order, because each refers to those before.
-    CoupledSystem          coupled_system;
-    StepSolver             solver;
-    Steps                  steps;
-    StepControl           &step_control; ///< the one that was chosen
-    StateChecks            state_checks;
-    std::vector<TorqueRow> all_rows;
-    std::vector<Warning>   all_warnings;
-    Effort                 so_far;
-    double                 reaction_defect = 0; ///< of the last accepted state
-    CoupledSystem::Rates   rates; ///< of the last step that was solved
-    CoupledSystem::Rates   accepted_rates;
-    SavedState             last_row; ///< while the next one is at work
+    CoupledSystem               coupled_system;
+    StepSolver                  solver;
+    Steps                       steps;
+    StepControl                &step_control; ///< the one that was chosen
+    StateChecks                 state_checks;
+    std::vector<TorqueRow>      all_rows;
+    std::vector<Warning>        all_warnings;
+    std::vector<RelativeMotion> all_motions;
+    bool                        motion_goes_on = false;
+    double                      motion_begins  = 0.; ///< its first time
+    Effort                      so_far;
+    double               reaction_defect = 0; ///< of the last accepted state
+    CoupledSystem::Rates rates; ///< of the last step that was solved
+    CoupledSystem::Rates accepted_rates;
+    SavedState           last_row; ///< while the next one is at work
     /** A row failed, and the state of the last one could not be restored. */
     bool is_lost = false;
   };

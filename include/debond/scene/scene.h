@@ -57,6 +57,7 @@ namespace Debond
     std::vector<std::string> reference_columns;  ///< of it; empty: recognised
     std::string              reference_profiles; ///< a profiles.csv, or empty
     std::vector<double>      curve_at;           ///< angles [deg]
+    std::vector<double>      motion_between;     ///< times; empty: first, last
     double full_sliding_angle = 0;               ///< [deg], 0: from the curve
     double observed_bonding   = 0;      ///< mean phi_0 of w_adh, 0: the scene's
     std::vector<double> profile_angles; ///< [deg]
@@ -137,6 +138,15 @@ namespace Debond
      *  whether all else is round, too, and the same all around. */
     bool
     keeps_axis() const;
+    /** `Output / Motion between', or the first and the last time. */
+    std::vector<double>
+    motion_times() const
+    {
+      return output.motion_between.empty() ?
+               std::vector<double>{load_steps.times.front(),
+                                   load_steps.times.back()} :
+               output.motion_between;
+    }
     bool
     is_axisymmetric() const;
     /** Whether the interface, and not the bodies, says what the pressure is: it

@@ -72,7 +72,8 @@ def curve_of(directory, summary, entries):
     if first == first:
         times, _ = columns_of(curve_file(directory), ("time", axes[1]))
         i = min(range(len(times)), key=lambda i: abs(times[i] - first))
-        add_mark(plot, "bone beyond its strength", xs[i], ys[i])
+        if xs[i] != xs[0]:  # else it happened before the curve begins
+            add_mark(plot, "bone beyond its strength", xs[i], ys[i])
     return plot.context()
 
 

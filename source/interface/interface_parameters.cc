@@ -15,7 +15,7 @@ namespace Debond
     table.enter_subsection("Interface");
     table.add(
       "Expert / Slave",
-      slave_is_auto ? "auto" : name_of(slave),
+      slave_is_auto && slave == Side::implant ? "auto" : name_of(slave),
       [this](const std::string &text) {
         slave_is_auto = text == "auto";
         slave         = text == "bone" ? Side::bone : Side::implant;

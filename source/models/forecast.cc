@@ -83,15 +83,17 @@ namespace Debond
       why = "ends of the bone or of the implant matter";
     if (!why.empty())
       return;
-    pressure = pressure_on(interface.bone_layer, fit);
-    error += 0.01;
+    const BoneLayer &bone = interface.bone_layer;
+    pressure              = pressure_on(bone, fit);
+    // a pull takes some of the pressure off, which crushed bone does not
+    // restore
+    error += bone.crushes() && pulled > 0. ? 0.16 : 0.01;
     if (interface.law_choice.law != "friction" || interface.viscosity > 0. ||
         interface.bonding_of_law().pattern != BondingPatternKind::homogeneous)
       return;
-    const double     phi_0 = interface.bonding_of_law().initial_bonding;
-    const BoneLayer &bone  = interface.bone_layer;
-    const double     tau_b = bone.shears() ? bone.shear_strength : HUGE_VAL;
-    const auto       limit = [&](const double phi) {
+    const double phi_0 = interface.bonding_of_law().initial_bonding;
+    const double tau_b = bone.shears() ? bone.shear_strength : HUGE_VAL;
+    const auto   limit = [&](const double phi) {
       return std::min(tau_b,
                       interface.friction->limit({}, phi, pressure, 0.).value);
     };

@@ -31,7 +31,7 @@ namespace Debond
     if (next_mark(time) == next_mark(last))
       {
         motion_goes_on = true;
-        motion_begins  = last;
+        motion_begins  = time;
         coupled_system.interface.mark_motion();
       }
   }
@@ -45,7 +45,7 @@ namespace Debond
       return;
     RelativeMotion motion = coupled_system.interface.relative_motion();
     motion.from           = motion_begins;
-    motion.to             = *next_mark(motion_begins);
+    motion.to             = time;
     all_motions.push_back(motion);
     motion_goes_on = false;
   }

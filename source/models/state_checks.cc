@@ -117,9 +117,9 @@ namespace Debond
                       << to_text(beyond.X[k][0], 3) << ", "
                       << to_text(beyond.X[k][1], 3) << ", "
                       << to_text(beyond.X[k][2], 3) << ") mm, beyond Bone / "
-                      << kinds[k] << " strength; in all "
+                      << kinds[k] << " strength; beyond one or the other are "
                       << to_text(beyond.volume_mm3, 3)
-                      << " mm^3 are. The model goes on with elastic bone");
+                      << " mm^3. The model goes on with elastic bone");
     }
 
 

@@ -83,8 +83,8 @@ namespace Debond
              << fixed_text(rounded(position), 4) << ' ' << std::setw(11)
              << fixed_text(rounded(load), 4) << ' ' << std::setw(13)
              << fixed_text(rounded(row.pressure_MPa), 4) << ' ' << std::setw(11)
-             << fixed_text(100. * row.share_slip, 1) << ' ' << std::setw(11)
-             << row.newton_iterations << '\n');
+             << fixed_text(100. * (row.share_slip + row.share_shears), 1) << ' '
+             << std::setw(11) << row.newton_iterations << '\n');
   }
 
 

@@ -280,8 +280,9 @@ namespace Debond
   {
     chuck.take_press();
     interface.bonding.identity = identity_of(interface.bonding.file);
-    interface.friction         = interface.pressure_dependence.of(
-      create_friction_law(interface.friction_choice));
+    // what is refused of the pressure leaves the law that was chosen
+    interface.friction = create_friction_law(interface.friction_choice);
+    interface.friction = interface.pressure_dependence.of(interface.friction);
     check_shapes();
     interface.take_slave(implant.geometry().is_in_bore());
     implant.make_mesh("Implant", implant);

@@ -42,8 +42,8 @@ namespace Debond
     void
     take_slave(const bool is_in_bore)
     {
-      if (slave_is_auto)
-        slave = bone_layer.crushes() && is_in_bore ? Side::bone : Side::implant;
+      if (slave_is_auto && bone_layer.crushes() && is_in_bore)
+        slave = Side::bone;
     }
 
     bool

@@ -283,7 +283,7 @@ namespace Debond
       void
       write_motions(nlohmann::ordered_json &facts) const
       {
-        const std::vector<RelativeMotion> &motions = simulation.motions();
+        const std::vector<RelativeMotion> motions = simulation.motions();
         if (motions.empty())
           return;
         const RelativeMotion &last = motions.back();

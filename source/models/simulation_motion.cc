@@ -8,8 +8,9 @@ namespace Debond
   std::optional<double>
   Simulation::next_mark(const double time) const
   {
-    const std::vector<double> marks     = scene.motion_times();
-    const double              tolerance = 1e-9 * (marks.back() - marks.front());
+    const std::vector<double>  marks = scene.motion_times();
+    const std::vector<double> &times = scene.load_steps.times;
+    const double tolerance           = 1e-9 * (times.back() - times.front());
     for (const double mark : marks)
       if (mark > time + tolerance)
         return mark;
@@ -48,5 +49,20 @@ namespace Debond
     motion.to             = time;
     all_motions.push_back(motion);
     motion_goes_on = false;
+  }
+
+
+
+  std::vector<RelativeMotion>
+  Simulation::motions() const
+  {
+    std::vector<RelativeMotion> result = all_motions;
+    if (scene.output.motion_between.empty() && motion_goes_on)
+      {
+        result.push_back(coupled_system.interface.relative_motion());
+        result.back().from = motion_begins;
+        result.back().to   = all_rows.back().time;
+      }
+    return result;
   }
 } // namespace Debond

@@ -321,12 +321,12 @@ namespace Debond
     check_start_of_friction(interface, load_steps);
     check_rate(*this);
     check_crushing(*this);
-    const std::vector<double> marks = motion_times();
-    if (!std::is_sorted(marks.begin(),
-                        marks.end(),
-                        std::less_equal<double>()) ||
-        marks.front() < load_steps.times.front() ||
-        marks.back() > load_steps.times.back())
+    const std::vector<double> &marks = output.motion_between;
+    if (!marks.empty() && (!std::is_sorted(marks.begin(),
+                                           marks.end(),
+                                           std::less_equal<double>()) ||
+                           marks.front() < load_steps.times.front() ||
+                           marks.back() > load_steps.times.back()))
       throw EntryError("Output / Motion between",
                        "expected times that ascend, within Load steps / Times",
                        entry_text(marks));

@@ -118,13 +118,10 @@ namespace Debond
     {
       return all_warnings;
     }
-    /** Between the times of `Output / Motion between`, as far as they have been
-     *  reached. */
-    const std::vector<RelativeMotion> &
-    motions() const
-    {
-      return all_motions;
-    }
+    /** Between the times of `Output / Motion between', as far as they have been
+     *  reached; without them up to the last row. */
+    std::vector<RelativeMotion>
+    motions() const;
 
     /** What the measures of the torque curve refer to: contact area, initial
      *  bonding and phases. */

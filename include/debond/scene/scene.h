@@ -138,13 +138,13 @@ namespace Debond
      *  whether all else is round, too, and the same all around. */
     bool
     keeps_axis() const;
-    /** `Output / Motion between', or the first and the last time. */
+    /** `Output / Motion between', or the first time and the end, whenever a run
+     *  ends: it may go on to further times. */
     std::vector<double>
     motion_times() const
     {
       return output.motion_between.empty() ?
-               std::vector<double>{load_steps.times.front(),
-                                   load_steps.times.back()} :
+               std::vector<double>{load_steps.times.front(), 1e300} :
                output.motion_between;
     }
     bool

@@ -278,7 +278,6 @@ namespace Debond
         return sums;
       }
 
-      /** Writes summary.json. */
       /** The last motion goes into @p facts, all of them into motion.csv. */
       void
       write_motions(nlohmann::ordered_json &facts) const
@@ -305,6 +304,7 @@ namespace Debond
         write_file(directory.file("motion.csv"), table);
       }
 
+      /** Writes summary.json. */
       void
       finish(const bool converged, const std::string &reason)
       {

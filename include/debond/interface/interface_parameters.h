@@ -75,15 +75,6 @@ namespace Debond
     InterfaceLawPointer
     joint() const;
 
-    /** True if it is that of the paper, friction in proportion to the pressure,
-     *  on bone that bears all. */
-    bool
-    is_friction_only() const
-    {
-      return law_choice.law == "friction" && pressure_dependence.is_none() &&
-             !bone_layer.crushes() && !bone_layer.shears();
-    }
-
     /** See ContactPointLaw; makes the law. */
     bool
     is_viscous() const

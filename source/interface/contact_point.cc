@@ -242,7 +242,7 @@ namespace Debond
           // point that climbs as it slides may find no place on either side
           // of that: it has come to p = 0, and opens.
           if (outcome == SlipOutcome::not_found && projection.faces &&
-              point.viscous > 0. &&
+              point.start.viscous > 0. &&
               projection.height >= point.joint().reach(point.start, 0.))
             return leave_open(point.law, start, result, projection.height);
         }
@@ -325,9 +325,8 @@ namespace Debond
       master,
       start,
       x,
-      law.joint->begin(start, phi_0, mode.duration, mode.frictionless),
-      viscous_stiffness(law, mode)};
-    point.start.viscous = point.viscous;
+      law.joint->begin(start, phi_0, mode.duration, mode.frictionless)};
+    point.start.viscous = viscous_stiffness(law, mode);
     if (law.joint->cohesion)
       point.start.damage = mode.damage;
     const bool              closed   = is_closed(point, g_n, 0.);

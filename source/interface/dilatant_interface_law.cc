@@ -116,13 +116,11 @@ namespace Debond
            const double      g_n,
            const double      distance) const override
       {
-        PointWork  result   = InterfaceLaw::work(start, g_n, distance);
-        const auto pressure = [&](const double gap, const double slid) {
-          return std::max(0., push(start, gap, slid).pressure);
-        };
+        PointWork result = InterfaceLaw::work(start, g_n, distance);
         result.lift =
           0.5 *
-          (pressure(start.history.normal_gap, 0.) + pressure(g_n, distance)) *
+          (pressed(start, start.history.normal_gap, 0.) +
+           pressed(start, g_n, distance)) *
           (height(slipped(start, distance)) - height(start.history.slip));
         return result;
       }

@@ -266,9 +266,8 @@ namespace Debond
       return pressure > 0. ? friction->work(start, pressure, distance) :
                              PointWork();
     };
-    const PointWork first =
-                      at(push(start, start.history.normal_gap, 0.).pressure),
-                    last  = at(push(start, g_n, distance).pressure);
+    const PointWork first = at(pressed(start, start.history.normal_gap, 0.)),
+                    last  = at(pressed(start, g_n, distance));
     result.friction       = 0.5 * (first.friction + last.friction);
     result.friction_bound = 0.5 * (std::abs(first.friction - last.friction) +
                                    first.friction_bound + last.friction_bound);

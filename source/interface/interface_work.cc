@@ -244,16 +244,13 @@ namespace Debond
     const double deeper = trial.state.crushed - point.accepted.crushed;
     if (deeper > 0.)
       {
-        const auto pressure = [&](const double gap, const double distance) {
-          return std::max(0., law.push(start, gap, distance).pressure);
-        };
         const double by_law = point.JxW * law.bone.work(point.accepted.crushed,
                                                         trial.state.crushed),
                      by_trapezoid =
                        mode.duration == 0. ?
                          by_law :
                          0.5 * point.JxW * deeper *
-                           (pressure(point.accepted.normal_gap, 0.) +
+                           (law.pressed(start, point.accepted.normal_gap, 0.) +
                             trial.pressure - trial.viscous_pressure);
         crushed += by_law;
         dissipation += by_trapezoid;

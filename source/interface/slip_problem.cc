@@ -90,7 +90,7 @@ namespace Debond
     // backwards. Where the bone shears the faces slide by a part of the
     // distance, and both together hold what the bone bears, whatever the rest
     // of the distance is.
-    resistance = response.resists ? point.viscous : 0.;
+    resistance = response.resists ? point.start.viscous : 0.;
     limit      = response.limit + resistance * response.rubbed;
     slope      = response.limit_by_slip + (response.shears ? 0. : resistance);
 

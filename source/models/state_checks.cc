@@ -129,16 +129,19 @@ namespace Debond
     check_dents(const CoupledSystem &system, const Note &note)
     {
       const ContactInterface &interface = system.interface;
-      const double            cell      = std::sqrt(interface.implant_area() /
+      if (!interface.get_law().bone.crushes() ||
+          interface.slave_side() == Side::bone)
+        return;
+      const double cell   = std::sqrt(interface.implant_area() /
                                     system.implant.surface().n_elements());
-      const auto             &points    = interface.get_points();
-      const auto              n_left =
+      const auto  &points = interface.get_points();
+      const auto   n_left =
         std::count_if(points.begin(), points.end(), [&](const auto &point) {
           const PointHistory &state = point.trial.state;
           return state.crushed > 0. &&
                  interface.get_law().slid(state) - state.crushed_at > cell;
         });
-      if (n_left > 0 && interface.slave_side() == Side::implant)
+      if (n_left > 0)
         note(
           "dents",
           Text() << n_left

@@ -5,6 +5,8 @@
 #include <debond/support/number_text.h>
 #include <debond/support/ranks.h>
 
+#include <boost/math/tools/roots.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -150,13 +152,15 @@ namespace Debond
       };
       const auto   values = scene.sampled_values(ChuckComponent::translation_z);
       const double most   = -*std::min_element(values.begin(), values.end());
-      double       low = 0., high = scene.implant.radius;
-      for (unsigned int i = 0; i < 50; ++i)
-        {
-          const double middle                 = 0.5 * (low + high);
-          (press(middle) < most ? low : high) = middle;
-        }
-      return high;
+      const double radius = scene.implant.radius;
+      if (!(most > 0. && press(radius) > most))
+        return radius;
+      return boost::math::tools::bisect(
+               [&](const double a) { return press(a) - most; },
+               0.,
+               radius,
+               boost::math::tools::eps_tolerance<double>(40))
+        .second;
     }
 
 

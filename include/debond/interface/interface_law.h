@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -137,6 +138,15 @@ namespace Debond
              double /*distance*/) const
     {
       return g_n + start.history.crushed;
+    }
+
+    /** The pressure there, at least 0 [MPa]. */
+    double
+    pressed(const PointStart &start,
+            const double      g_n,
+            const double      distance) const
+    {
+      return std::max(0., push(start, g_n, distance).pressure);
     }
 
     /** The gap up to which the point is carried [mm]. */

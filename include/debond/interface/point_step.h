@@ -17,8 +17,6 @@ namespace Debond
     const ContactPointState &before; ///< with an xi_hat^n
     Eigen::Vector3d          x;      ///< where the slave point ends [mm]
     PointStart               start;  ///< what the law knows of it
-    /** eta / dt, the resistance of its speed per distance [MPa/mm]. */
-    double viscous = 0.;
 
     // What the point had come to at the end of the step before, where the
     // master has taken it: y(xi_hat^n) and the gap [mm]. For slip that is

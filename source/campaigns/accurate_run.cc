@@ -289,7 +289,7 @@ namespace Debond
     // those of quadratic cells about an axis take longer
     const double rate = scene.implant.geometry().is_in_bore() ? 1.6e-4 : 4e-5;
     if (const double n = n_unknowns_of(scene); n > 0.)
-      text << "both take some " << to_text(rate * std::pow(n, 1.2), 1)
+      text << "both take some " << to_text(rate * std::pow(n, 1.2), 2)
            << " s; stiff interfaces, and steps that are many, up to four times "
               "that\n";
     std::string list;

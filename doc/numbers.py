@@ -1097,7 +1097,7 @@ def tutorial_no_offset():
 @numbers('minutes')
 def tutorial_rigid_machine():
     result = fit(TUTORIAL_FIT, 'Calibration/Machine compliance=0')
-    assert 1e-8 < result['curves'][0]['chance_of_F'] < 1e-6
+    assert 1e-7 < result['curves'][0]['chance_of_F'] < 1e-5  # UNLIKELY of fit.py is 1e-6
     return with_interval(result['unknowns']['eps_t'])
 
 

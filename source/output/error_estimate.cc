@@ -32,7 +32,18 @@ namespace Debond
                                             "work_Nmm",
                                             "E_start_Nmm",
                                             "E_bulk_Nmm",
-                                            "E_interface_Nmm"};
+                                            "E_interface_Nmm",
+                                            "crushed_volume_mm3",
+                                            "crushed_depth_mm",
+                                            "crushed_Nmm",
+                                            "effective_interference_mm",
+                                            "share_crushed",
+                                            "share_sheared",
+                                            "sheared_mm",
+                                            "sheared_Nmm",
+                                            "beyond_strength_mm3",
+                                            "motion_mean_um",
+                                            "motion_95_um"};
 
 
 
@@ -350,7 +361,8 @@ namespace Debond
                  square * (steps + bodies) * std::abs(value);
     };
     for (const std::string &name : measured)
-      members[name + "_error"] = error(name, summary, other);
+      if (summary.contains(name))
+        members[name + "_error"] = error(name, summary, other);
     // of work and dissipation, what their balance lacks
     for (const std::string name : {"work_Nmm", "dissipation_Nmm"})
       if (auto &one = members[name + "_error"]; one.is_number())

@@ -3,6 +3,7 @@
 calibrate SCENE.prm   find the unknowns of a scene with Task = calibrate
 compare DIR CURVE     compare results with a measured curve
 ensemble DIR          statistics of a study over its random members
+mesh IMPLANT.step [BONE.step]   meshes and a scene from CAD
 measured FILE         read a table of a laboratory, write it as plain CSV
 nifti FILE.nii FILE.mha   write a NIfTI image as a MetaImage, which scenes read
 page DIR              write report.html of the results in a directory
@@ -27,6 +28,8 @@ COMMANDS = {
     "ensemble": ("DIR, a finished study", 1, {}),
     "measured": ("FILE [--columns LIST] [--curves angle_deg,torque_Nmm]", 1,
                  {"--columns": "", "--curves": "angle_deg,torque_Nmm", "--entry": "FILE", "--columns-entry": "--columns"}),
+    "mesh": ("IMPLANT.step [BONE.step | --bone 12x12x8 [--depth 5]] --out NAME [--size 0.5] [--edge-size 0.25] [--held top] [--bone-held bottom,sides]", (1, 2),
+             {"--size": "", "--edge-size": "", "--out": "", "--bone": "", "--depth": "", "--held": "top", "--bone-held": "bottom,sides"}),
     "nifti": ("FILE.nii FILE.mha, an image to read and one to write", 2, {}),
     "page": ("DIR, a directory of results", 1, {}),
     "specimens": ("TEMPLATE.prm TABLE [--out DIR] [--jobs N]", 2, {"--out": "", "--jobs": PROCESSORS}),
@@ -53,7 +56,7 @@ def _read(words, usage, n_files, options):
             raise InputError(f"{word}: expected {usage}")
         else:
             files.append(word)
-    if len(files) != n_files:
+    if len(files) not in (n_files if isinstance(n_files, tuple) else (n_files,)):
         raise InputError(f"expected {usage}")
     return files, options
 

@@ -93,8 +93,14 @@ namespace Debond
           for (const auto &[id, components] : supports)
             if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
               hold(info, f, components);
-        if (info.enriched)
-          tie(info, nodes_of_fe(cell));
+        if (!info.enriched)
+          continue;
+        const auto nodes = nodes_of_fe(cell);
+        tie(info.face, info.surface_element, nodes);
+        const auto [first, end] =
+          other_contact_faces.equal_range(cell->active_cell_index());
+        for (auto other = first; other != end; ++other)
+          tie(other->second.first, other->second.second, nodes);
       }
   }
 
@@ -163,24 +169,33 @@ namespace Debond
 
 
 
+  // Nodes of FE_Q on a contact face follow the control points of its element.
   void
-  BulkSpace::tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe)
+  BulkSpace::tie(const ContactFace               &face,
+                 const unsigned int               element,
+                 const std::vector<unsigned int> &nodes_of_fe)
   {
+    const auto   bounds = contact_surface.element_bounds(element);
+    SurfaceBasis basis;
     for (unsigned int a = 0; a < scalar_fe.n_dofs_per_cell(); ++a)
       if (const unsigned int node = nodes_of_fe[a];
-          scalar_fe.has_support_on_face(a, cell.face.number) && !tied[node])
+          scalar_fe.has_support_on_face(a, face.number) && !tied[node])
         {
-          tied[node] = true;
-          const ShapeValues N =
-            CellFunctions(*this, cell).at(scalar_fe.unit_support_point(a));
+          tied[node]                 = true;
+          const dealii::Point<3> &at = scalar_fe.unit_support_point(a);
+          contact_surface.evaluate_in_element(
+            element,
+            parameters_at(bounds, {at[face.axes[0]], at[face.axes[1]]}),
+            basis);
           for (unsigned int c = 0; c < 3; ++c)
             {
               follow.add_line(3 * node + c);
-              for (unsigned int b = 0; b < N.rows(); ++b)
-                if (N(b, 0) != 0.)
-                  follow.add_entry(3 * node + c,
-                                   3 * cell.nodes[b] + c,
-                                   N(b, 0));
+              for (unsigned int b = 0; b < basis.size; ++b)
+                if (basis.N[b] != 0.)
+                  follow.add_entry(
+                    3 * node + c,
+                    3 * control_point_node(basis.control_point[b]) + c,
+                    basis.N[b]);
             }
         }
   }

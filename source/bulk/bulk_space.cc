@@ -140,9 +140,16 @@ namespace Debond
     unsigned int element = 0;
     for (const auto &[cell, face] : cells_at_contact_face(triangulation))
       {
-        Cell &info    = bulk_cells[cell->active_cell_index()];
+        Cell             &info    = bulk_cells[cell->active_cell_index()];
+        const ContactFace contact = ContactFace::of(face, body_side);
+        if (info.enriched)
+          {
+            other_contact_faces.emplace(cell->active_cell_index(),
+                                        std::pair(contact, element++));
+            continue;
+          }
         info.enriched = true;
-        info.face     = ContactFace::of(face, body_side);
+        info.face     = contact;
         if (!has_lattice())
           info.surface_element = element++;
       }

@@ -43,6 +43,16 @@ namespace Debond
       const NurbsSurface &surface;
       const ControlNet   &control_points;
       const Vector3d     &x;
+      /** Where normals have to be towards, or none; a piece, or -1. */
+      const Vector3d *towards = nullptr;
+      int             piece   = -1;
+
+      bool
+      counts(const SurfaceGeometry &y) const
+      {
+        const Vector3d normal = y.a1.cross(y.a2);
+        return towards == nullptr || normal.dot(*towards) > 0.5 * normal.norm();
+      }
     };
 
 
@@ -402,7 +412,8 @@ namespace Debond
       const DistanceState &s         = descent.s;
       return {s.xi,
               s.r.norm(),
-              converged && is_orthogonal(problem.surface, s),
+              converged && is_orthogonal(problem.surface, s) &&
+                problem.counts(s.y),
               converged};
     }
 
@@ -458,15 +469,19 @@ namespace Debond
           const Vector2d t(0.02 + 0.48 * (k % 3), 0.02 + 0.48 * (k / 3));
           const Vector2d xi = box[0] + t.cwiseProduct(box[1] - box[0]);
           problem.surface.evaluate_in_element(element, xi, basis);
-          const Vector3d r =
-            problem.x - interpolate(basis, problem.control_points);
-          samples[k] = {element, bound, r.squaredNorm(), xi};
+          SurfaceGeometry y;
+          contract(basis, problem.control_points, y);
+          samples[k] = {element,
+                        bound,
+                        problem.counts(y) ? (problem.x - y.y).squaredNorm() :
+                                            infinity,
+                        xi};
         }
 
       for (unsigned int k = 0; k < 9; ++k)
         {
           const double d = samples[k].distance;
-          if ((k % 3 == 0 || d <= samples[k - 1].distance) &&
+          if (d < infinity && (k % 3 == 0 || d <= samples[k - 1].distance) &&
               (k % 3 == 2 || d < samples[k + 1].distance) &&
               (k < 3 || d <= samples[k - 3].distance) &&
               (k > 5 || d < samples[k + 3].distance))
@@ -482,7 +497,8 @@ namespace Debond
     {
       std::vector<std::pair<double, unsigned int>> elements;
       for (unsigned int e = 0; e < problem.surface.n_elements(); ++e)
-        elements.emplace_back(squared_distance_bound(problem, e), e);
+        if (problem.piece < 0 || int(problem.surface.piece(e)) == problem.piece)
+          elements.emplace_back(squared_distance_bound(problem, e), e);
       // The element with the least bound comes first and rules out most.
       std::iter_swap(elements.begin(),
                      std::min_element(elements.begin(), elements.end()));
@@ -534,11 +550,18 @@ namespace Debond
   closest_point(const NurbsSurface &surface,
                 const ControlNet   &control_points,
                 const Vector3d     &x,
-                const Vector2d     *guess)
+                const Vector2d     *guess,
+                const Vector3d     *towards)
   {
     assert(control_points.cols() == surface.n_control_points());
 
-    const DistanceProblem problem{surface, control_points, x};
+    DistanceProblem problem{surface, control_points, x};
+    if (surface.n_pieces() > 1)
+      {
+        problem.towards = towards;
+        if (guess != nullptr && towards == nullptr)
+          problem.piece = surface.piece(surface.element_of(*guess));
+      }
     if (guess != nullptr && guess->allFinite())
       {
         const Vector2d     xi = surface.clamped(*guess);

@@ -1,4 +1,8 @@
-#include <debond/geometry/nurbs_surface.h>
+#include <debond/geometry/surface_geometry.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cassert>
@@ -133,6 +137,54 @@ namespace Debond
     result.faces_at.resize(places_of_corners.size());
     result.find_neighbours();
     return result;
+  }
+
+
+
+  Eigen::Vector3d
+  NurbsSurface::normal_at_side(const unsigned int face,
+                               const unsigned int side) const
+  {
+    Eigen::Vector2d local(0.5, 0.5);
+    local[side / 2] = side % 2;
+    SurfaceBasis    basis;
+    SurfaceGeometry geometry;
+    evaluate_in_element(face, lowest_of_face(face) + local, basis);
+    contract(basis, points, geometry);
+    return geometry.a1.cross(geometry.a2).normalized();
+  }
+
+
+
+  // Corners are those of pieces from then on, so that neither sides nor corners
+  // lead from one to another.
+  void
+  NurbsSurface::cut_at_edges(const double angle)
+  {
+    boost::disjoint_sets_with_storage<> connected(faces.size());
+    for (unsigned int f = 0; f < faces.size(); ++f)
+      for (unsigned int s = 0; s < 4; ++s)
+        if (const Face::Neighbour &next = faces[f].across[s];
+            next.face >= 0 &&
+            normal_at_side(f, s).dot(normal_at_side(next.face, next.side)) >
+              std::cos(angle))
+          connected.union_set(f, unsigned(next.face));
+    std::map<unsigned int, unsigned int>                          pieces;
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> corners;
+    for (unsigned int f = 0; f < faces.size(); ++f)
+      {
+        Face &face = faces[f];
+        face.piece =
+          pieces.emplace(connected.find_set(f), pieces.size()).first->second;
+        face.across = {};
+        for (unsigned int &corner : face.corners)
+          corner =
+            corners.emplace(std::pair(face.piece, corner), corners.size())
+              .first->second;
+      }
+    number_of_pieces = pieces.size();
+    faces_at.assign(corners.size(), {});
+    find_neighbours();
   }
 
 

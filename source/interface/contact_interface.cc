@@ -137,10 +137,13 @@ namespace Debond
     // the whole master else. A point beyond the edge has no partner;
     // it keeps its clearance instead, the distance [mm] that the surfaces may
     // move before it has to be asked again.
-    const Projection projection =
+    const ControlNet     &positions = configuration.side[slave].positions;
+    const Eigen::Vector3d normal    = normal_of_slave(point, positions);
+    const Projection      projection =
       project(master(configuration),
-              interpolate(point.basis, configuration.side[slave].positions),
-              use_guess ? &point.accepted.xi : nullptr);
+              interpolate(point.basis, positions),
+              use_guess ? &point.accepted.xi : nullptr,
+              &normal);
     point.accepted.xi          = projection.xi;
     point.accepted.has_partner = projection.faces;
     point.clearance            = projection.clearance;
@@ -166,15 +169,16 @@ namespace Debond
   ContactInterface::entry(const SlavePoint             &point,
                           const InterfaceConfiguration &configuration) const
   {
-    ContactPointState start   = point.accepted;
-    MasterSurface     surface = master(configuration);
-    start.has_partner =
-      project(surface,
-              interpolate(point.basis, configuration.side[slave].positions),
-              &start.xi)
-        .faces;
+    ContactPointState     start     = point.accepted;
+    MasterSurface         surface   = master(configuration);
+    const ControlNet     &positions = configuration.side[slave].positions;
+    const Eigen::Vector3d normal    = normal_of_slave(point, positions);
+    const Projection      at =
+      project(surface, interpolate(point.basis, positions), &start.xi, &normal);
+    start.has_partner = at.faces;
     if (start.has_partner)
       {
+        start.xi          = at.xi;
         surface.positions = &accepted_positions[master_side()];
         start.xi          = project(surface,
                            interpolate(point.basis, accepted_positions[slave]),

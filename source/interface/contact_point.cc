@@ -53,10 +53,21 @@ namespace Debond
   // It is also no partner if the search did not converge: then it stays open,
   // and that is counted, rather than that it sticks to a wrong place.
   Projection
-  project(const MasterSurface &master, const Vector3d &x, const Vector2d *guess)
+  project(const MasterSurface &master,
+          const Vector3d      &x,
+          const Vector2d      *guess,
+          const Vector3d      *normal)
   {
-    const ClosestPoint closest =
-      closest_point(*master.surface, *master.positions, x, guess);
+    // the direction of a_1 x a_2 on pieces that face the slave; the law of a
+    // point knows of no normal, and stays on its piece
+    Vector3d towards = Vector3d::Zero();
+    if (normal != nullptr)
+      towards = -master.outward_sign * *normal;
+    const ClosestPoint closest = closest_point(*master.surface,
+                                               *master.positions,
+                                               x,
+                                               guess,
+                                               normal ? &towards : nullptr);
     // Where it is, and the tangents there, Eq. (23). In the corners of the
     // disk's patch they are parallel, and their cross product, the normal of
     // Eq. (24), has no direction.

@@ -1,6 +1,7 @@
 #include <debond/bulk/bulk_space.h>
 #include <debond/bulk/chuck.h>
 #include <debond/interface/contact_interface.h>
+#include <debond/interface/slip_problem.h>
 #include <debond/shapes/faces_of_mesh.h>
 #include <debond/support/number_text.h>
 
@@ -21,10 +22,12 @@ namespace Debond
      * its radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above
      * the plane of its neighbour: three times that or more, up to theta = 60
      *  degrees, from where on there is an edge. Both directions add up.
-     *  Elements that are curved themselves: a twentieth. */
+     *  Elements that are curved themselves: a twentieth; of files three, as
+     *  two of them may be halves of one. */
     std::vector<double>
-    errors_of_facets(const NurbsSurface &surface)
+    errors_of_facets(const NurbsSurface &surface, const bool is_of_file)
     {
+      const double share = surface.degree() == 1 ? 3. : is_of_file ? 20. : 60.;
       std::vector<double> result(surface.n_elements(), 0.);
       // one patch is the smooth surface itself
       if (surface.is_one_patch())
@@ -55,8 +58,7 @@ namespace Debond
                         highest = std::max(highest, height);
                     }
                 }
-              result[middle.element] +=
-                highest / (surface.degree() == 1 ? 3. : 60.);
+              result[middle.element] += highest / share;
             }
         }
       return result;
@@ -67,8 +69,9 @@ namespace Debond
 
   // Where the bodies are made, whatever the chuck and a press fit do at the
   // first time. A gap that facets account for is none: bonds would else hold,
-  // and a press fit press, where meshes match only. Without these it stays, as
-  // an implant may be made larger than the hole for it.
+  // and a press fit press, where meshes match only, and a twist that moves
+  // faces by less would meet nothing. Of shapes of our own it stays without
+  // these, as an implant may be made larger than the hole for it.
   //
   // It is a vector G in the frame of the slave, taken off by the basis of the
   // point: origin o of the frame and ends of its axes follow the control
@@ -83,22 +86,33 @@ namespace Debond
     const NurbsSurface &surface = mesh[master_side()]->surface();
     if (surface.is_one_patch() && mesh[slave]->surface().is_one_patch())
       return; // smooth
-    const std::vector<double> errors = errors_of_facets(surface),
-                              own    = errors_of_facets(mesh[slave]->surface());
+    const auto is_of_file = [this](const Side side) {
+      return mesh[side]->parameters().shape == BodyShape::file;
+    };
+    const std::vector<double> errors =
+                                errors_of_facets(surface,
+                                                 is_of_file(master_side())),
+                              own = errors_of_facets(mesh[slave]->surface(),
+                                                     is_of_file(slave));
     const MasterSurface master{&surface,
                                &surface.control_points(),
                                mesh[master_side()]->outward_sign()};
-    const bool takes_off = law.joint->pulls() || parameters.has_interference();
-    bool       fits      = true;
-    double     lowest = std::numeric_limits<double>::max(), highest = -lowest;
+    const bool          takes_off = law.joint->pulls() ||
+                           parameters.has_interference() ||
+                           is_of_file(Side::bone) || is_of_file(Side::implant);
+    bool   fits   = true;
+    double lowest = std::numeric_limits<double>::max(), highest = -lowest;
     const Eigen::Vector2d *guess = nullptr;
     for (SlavePoint &point : points)
       {
-        const Projection rest = project(master, point.X, guess);
+        const Eigen::Vector3d normal =
+          normal_of_slave(point, mesh[slave]->surface().control_points());
+        const Projection rest = project(master, point.X, guess, &normal);
         if (!rest.faces)
           continue;
         point.accepted.xi = rest.xi;
-        guess             = &point.accepted.xi;
+        if (surface.n_pieces() == 1)
+          guess = &point.accepted.xi;
         const double facets =
                        own[point.element] + errors[surface.element_of(rest.xi)],
                      gap = std::abs(rest.height);
@@ -120,12 +134,30 @@ namespace Debond
         // and interpolate() and spread() need not know of it.
         for (const double N : {G.sum(), -G[0], -G[1], -G[2]})
           {
-            point.basis.control_point[point.basis.size] = number++;
-            point.basis.N[point.basis.size++]           = N;
+            const unsigned int k         = point.basis.size++;
+            point.basis.control_point[k] = number++;
+            point.basis.N[k]             = N;
+            point.basis.N_1[k] = point.basis.N_2[k] = 0.;
           }
       }
     if (fits && !takes_off)
       at_start.uneven = std::max(0., highest - lowest);
+  }
+
+
+
+  // Out of the slave at a point [-]. A face with edges is of several pieces,
+  // and the nearest is often none that the point presses against: beside the
+  // edge of a post's flat end the wall of its hole is nearer than the bottom
+  // once the post has moved. Pieces that face the point are asked only, with
+  // normals more than 120 degrees apart.
+  Eigen::Vector3d
+  ContactInterface::normal_of_slave(const SlavePoint &point,
+                                    const ControlNet &positions) const
+  {
+    SurfaceGeometry geometry;
+    contract(point.basis, positions, geometry);
+    return MasterNormal(geometry, mesh[slave]->outward_sign()).n;
   }
 
 
@@ -147,8 +179,8 @@ namespace Debond
     // counts.
     const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
                        bone   = boundary(Side::bone, FacesOfMesh::all);
-    const std::vector<double> own    = errors_of_facets(others),
-                              errors = errors_of_facets(bone);
+    const std::vector<double> own    = errors_of_facets(others, true),
+                              errors = errors_of_facets(bone, true);
     const MasterSurface master{&bone,
                                &bone.control_points(),
                                mesh[Side::bone]->outward_sign()};
@@ -209,7 +241,9 @@ namespace Debond
           project_accepted(point, configuration, neighbour != nullptr).height;
         if (!shares.empty())
           shares[&point - points.data()].xi = point.accepted.xi;
-        if (point.accepted.has_partner)
+        // which may be on another piece that faces them both
+        if (point.accepted.has_partner &&
+            mesh[master_side()]->surface().n_pieces() == 1)
           neighbour = &point;
       }
     assign_bonding();

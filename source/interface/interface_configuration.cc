@@ -141,7 +141,9 @@ namespace Debond
                                     const InterfaceConfiguration &configuration)
   {
     // Places on the implant's face, its edge included, are projected on the
-    // bone.
+    // bone. Of pieces the nearest may be none that faces it.
+    if (bone.n_pieces() > 1)
+      return std::vector<bool>(bone.n_control_points(), true);
     std::vector<bool> under(bone.n_elements(), false);
     // dense enough to meet every element of the bone that the edge crosses
     const unsigned int samples =

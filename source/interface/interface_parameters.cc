@@ -203,7 +203,9 @@ namespace Debond
               interference,
               Allowed::text("an expression in t"),
               "Excess of the diameter of the implant over that of its bore "
-              "[mm], an expression in the time t; negative: clearance. Its "
+              "[mm], an expression in the time t; negative: clearance. Bodies "
+              "from files: half of it along the normals of the implant's "
+              "contact faces. Its "
               "value at the first time is there before anything moves.");
     table.add("Opening breaks bond",
               opening_breaks_bond,

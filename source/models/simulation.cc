@@ -567,8 +567,8 @@ namespace Debond
     // no negative zero
     row.force_N = 0. - reaction[ChuckComponent::translation_z];
     // The mean pressure refers to the area of the undeformed contact face. In a
-    // bore it is no matter of the axial force.
-    row.pressure_MPa = scene.implant.geometry().is_in_bore() ?
+    // socket it is no matter of the axial force.
+    row.pressure_MPa = scene.implant.is_in_socket() ?
                          summary.pressure :
                          row.force_N / interface.implant_area();
     // Sums over the quadrature points, by area: the mean bonding state of Eq.

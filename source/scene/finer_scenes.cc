@@ -107,8 +107,7 @@ namespace Debond
         if (body->shape != BodyShape::file)
           changes[section + std::string(" / Cells")] =
             text_of(*body, cells_of(*body, change, scene.is_axisymmetric()));
-        else if (change == fewer_cells && body->mesh &&
-                 body->mesh->order == 1 &&
+        else if (change == fewer_cells &&
                  body->element == ElementKind::quadratic)
           changes[section + std::string(" / Element")] = "trilinear";
       if (const unsigned int under = scene.bone.cells_under_implant; under > 0)
@@ -227,6 +226,9 @@ namespace Debond
   cells_in_words(const Scene &scene)
   {
     const auto same = [](const BodyParameters &body) {
+      if (body.shape == BodyShape::file && body.mesh)
+        return std::to_string(body.mesh->triangulation.n_active_cells()) +
+               (body.element == ElementKind::trilinear ? " trilinear" : "");
       return text_of(body, cells_of(body, same_number, true));
     };
     return same(scene.bone) + " and " + same(scene.implant);

@@ -387,6 +387,10 @@ namespace Debond
         else if (bone.shape != BodyShape::block &&
                  bone.shape != BodyShape::file)
           choose_about_axis(choice);
+        for (const auto &[section, body] :
+             {std::pair("Bone", &bone), std::pair("Implant", &implant)})
+          if (body->shape == BodyShape::file)
+            choice.choose(section, "Element", "quadratic");
         choose_steps(choice);
       }
     catch (const InputError &)

@@ -90,7 +90,7 @@ namespace Debond
                            interface.interference);
       };
       const bool is_there = varies(values) || values.front() != 0.;
-      refuse_if(is_there && !scene.implant.geometry().is_in_bore(),
+      refuse_if(is_there && !scene.implant.is_in_socket(),
                 "a " + scene.implant.shape_row().name +
                   " is in no bore: expected 0");
       refuse_if(values.front() < 0. && interface.joint()->pulls(),

@@ -13,19 +13,6 @@ namespace Debond
 {
   namespace
   {
-    /** In a bore, or in a socket of a bone from a file, there is no push, and
-     * no rim that leaves the bone. */
-    bool
-    is_on_bone(const Scene &scene)
-    {
-      const auto &face = scene.bone.mesh ? scene.bone.mesh->box_of_face :
-                                           dealii::BoundingBox<3>();
-      return !scene.implant.geometry().is_in_bore() &&
-             face.side_length(2) <= 0.25 * face.side_length(0);
-    }
-
-
-
     /** Beyond, lengths have another unit, or everything has another size. */
     bool
     has_size(const Scene &scene)
@@ -109,7 +96,8 @@ namespace Debond
       if (scene.bone.modulus && scene.bone.modulus->voxels() != nullptr)
         judge_voxels(scene, *scene.bone.modulus->voxels(), note);
       for (const unsigned int d : {0, 1})
-        note(is_on_bone(scene) && scene.implant.width(d) == scene.bone.width(d),
+        note(!scene.implant.is_in_socket() &&
+               scene.implant.width(d) == scene.bone.width(d),
              "width",
              "the implant is as wide as the bone, " +
                to_text(scene.bone.width(d)) + " mm in " + "xy"[d] +
@@ -429,10 +417,11 @@ namespace Debond
                entry + " is " + to_text(values[0]) + " at all times from " +
                  to_text(times.front()) + " to " + to_text(times.back()) +
                  ", and changes later: do Load steps / Times end too early?");
-          if (is_on_bone(scene) && k < ChuckComponent::translation_z &&
-              !component.loaded)
+          if (!scene.implant.is_in_socket() &&
+              k < ChuckComponent::translation_z && !component.loaded)
             judge_crossing(scene, k, entry, values, note);
-          if (is_on_bone(scene) && k == ChuckComponent::translation_z)
+          if (!scene.implant.is_in_socket() &&
+              k == ChuckComponent::translation_z)
             judge_push(scene, entry, values, note);
           // the bone stands on a plate with a hole, and is held there
           note(k == ChuckComponent::translation_z &&

@@ -71,7 +71,9 @@ namespace Debond
           }
         if (!unfinished.empty())
           refuse("it is cut off within an element");
-        if (mesh.other_solids.empty()) // surfaces may be theirs; refused later
+        // surfaces may be those of solids that are refused later
+        if (mesh.other_solids.empty() &&
+            (mesh.hexahedra.empty() || mesh.tetrahedra.empty()))
           for (const auto &[name, sides] : surfaces)
             for (const auto &side : sides)
               add_faces(side, mesh.groups[name]);
@@ -84,7 +86,8 @@ namespace Debond
       struct Sides
       {
         std::string  elements; ///< a set, or one of them
-        unsigned int face;     ///< of deal.II's
+        unsigned int number;   ///< S1: 1
+        unsigned int face;     ///< of deal.II's, of a hexahedron
         unsigned int line;
       };
 
@@ -173,7 +176,11 @@ namespace Debond
         const auto end =
           std::min(type.find_first_not_of("0123456789", 3), type.size());
         const std::string n = begins("C3D") ? type.substr(3, end - 3) : "";
-        nodes_of_element    = n == "8" ? 8 : n == "20" ? 20 : 0;
+        nodes_of_element    = n == "8"  ? 8 :
+                              n == "20" ? 20 :
+                              n == "4"  ? 4 :
+                              n == "10" ? 10 :
+                                          0;
       }
 
       void
@@ -237,14 +244,25 @@ namespace Debond
         if (nodes.size() > nodes_of_element)
           refuse("expected " + std::to_string(nodes_of_element) +
                  " nodes of an element, not " + std::to_string(nodes.size()));
-        if (!element_number.emplace(unfinished[0], mesh.hexahedra.size())
+        const bool is_tetrahedron = nodes.size() == 4 || nodes.size() == 10;
+        if (!element_number
+               .emplace(unfinished[0],
+                        is_tetrahedron ? mesh.tetrahedra.size() :
+                                         mesh.hexahedra.size())
                .second)
           refuse("the second element " + std::to_string(unfinished[0]) +
                  ": expected one part only, each number once");
         if (parameters.count("ELSET"))
           sets[parameter("ELSET")].push_back(unfinished[0]);
-        mesh.add_hexahedron(nodes, places_of_nodes);
         unfinished.clear();
+        if (is_tetrahedron)
+          {
+            auto &tetrahedron = mesh.tetrahedra.emplace_back();
+            tetrahedron.fill(StoredMesh::none);
+            std::copy(nodes.begin(), nodes.end(), tetrahedron.begin());
+          }
+        else
+          mesh.add_hexahedron(nodes, places_of_nodes);
       }
 
       void
@@ -282,7 +300,10 @@ namespace Debond
         if (face == faces.end())
           refuse("expected an element or a set of them and a face, S1 to S6");
         surfaces[parameters["NAME"]].push_back(
-          {upper(items[0]), face->second, line_number});
+          {upper(items[0]),
+           static_cast<unsigned int>(face->first[1] - '0'),
+           face->second,
+           line_number});
       }
 
       void
@@ -297,12 +318,32 @@ namespace Debond
           {
             const auto found = element_number.find(element);
             if (found == element_number.end())
-              refuse("there is no hexahedron " + std::to_string(element));
+              refuse("there is no element " + std::to_string(element));
             auto &face = faces.emplace_back();
+            if (!mesh.tetrahedra.empty())
+              {
+                face = triangle(found->second, sides.number);
+                continue;
+              }
             for (unsigned int v = 0; v < 4; ++v)
               face[v] = mesh.hexahedra[found->second][dealii::GeometryInfo<
                 3>::face_to_cell_vertices(sides.face, v)];
           }
+      }
+
+      /** Face S1 to S4 of a tetrahedron, which numbers those without their
+       *  vertex 3, 2, 0 and 1. */
+      std::array<unsigned int, 4>
+      triangle(const unsigned int tetrahedron, const unsigned int number) const
+      {
+        if (number > 4)
+          refuse("a tetrahedron has no face S" + std::to_string(number));
+        const auto                 &nodes = mesh.tetrahedra[tetrahedron];
+        std::array<unsigned int, 4> result{
+          {nodes[0], nodes[1], nodes[2], StoredMesh::none}};
+        if (number > 1)
+          result[number == 2 ? 2 : number == 3 ? 0 : 1] = nodes[3];
+        return result;
       }
 
       std::string

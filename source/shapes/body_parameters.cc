@@ -281,15 +281,15 @@ namespace Debond
     table.add(
       "Mesh file",
       mesh_file,
-      Allowed::text("the name of a file of hexahedra", false)
+      Allowed::text("the name of a file of hexahedra or tetrahedra", false)
         .or_word_for("none", ""),
-      "File with the hexahedra of the body, for Shape = file: Gmsh "
+      "File with the hexahedra or tetrahedra of the body, for Shape = file: Gmsh "
       "(.msh) or Abaqus (.inp), relative to the working directory. Lengths are in mm, the contact face is near z = 0, "
       "the chuck on the z axis. Groups of faces have these names: "
       "contact; held; slides x, slides y, slides z (held along x, y "
       "or z only); axial (moves along z only). Other faces are free. "
       "The contact face is bilinear, or of degree two with Element = "
-      "quadratic, which files of second order need.");
+      "quadratic.");
   }
 
 

@@ -144,6 +144,40 @@ namespace Debond
 
 
 
+    /** Vertices come first; a node in the middle of an edge is known by its
+     *  coordinates. */
+    void
+    read_tetrahedra(const ElementType              &type,
+                    const std::size_t               n_elements,
+                    const std::vector<std::size_t> &nodes,
+                    const NodeNumbers              &number,
+                    StoredMesh                     &mesh)
+    {
+      const auto point = [&](const int n) {
+        const double *const x = &type.coordinates[3 * n];
+        return dealii::Point<3>(x[0], x[1], x[2]);
+      };
+      std::vector<unsigned int> place(type.n_nodes);
+      for (int n = 0; n < type.n_nodes; ++n)
+        {
+          place[n] = n;
+          for (unsigned int e = 0; n >= 4 && e < 6; ++e)
+            if (const auto &[i, j] = StoredMesh::edges[e];
+                (point(i) + (point(j) - point(i)) / 2.).distance(point(n)) <
+                0.1)
+              place[n] = 4 + e;
+        }
+      for (std::size_t e = 0; e < n_elements; ++e)
+        {
+          auto &tetrahedron = mesh.tetrahedra.emplace_back();
+          tetrahedron.fill(StoredMesh::none);
+          for (int n = 0; n < type.n_nodes; ++n)
+            tetrahedron[place[n]] = number.at(nodes[e * type.n_nodes + n]);
+        }
+    }
+
+
+
     void
     read_solids(const NodeNumbers &number, StoredMesh &mesh)
     {
@@ -153,6 +187,11 @@ namespace Debond
       for (unsigned int t = 0; t < types.size(); ++t)
         {
           const ElementType type(types[t]);
+          if (type.n_corners == 4 && (type.n_nodes == 4 || type.n_nodes == 10))
+            {
+              read_tetrahedra(type, elements[t].size(), nodes[t], number, mesh);
+              continue;
+            }
           if (type.n_corners != 8 ||
               (type.n_nodes != 8 && type.n_nodes != 20 && type.n_nodes != 27))
             {

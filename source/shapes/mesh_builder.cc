@@ -44,11 +44,14 @@ namespace Debond
           others +=
             (others.empty() ? "" : ", ") + std::to_string(n) + " " + kind;
         refuse("it has other elements than solid hexahedra with 8, 20 or 27 "
-               "nodes (" +
+               "nodes, or tetrahedra with 4 or 10 (" +
                others + "): expected these only");
       }
+    if (!stored.tetrahedra.empty() &&
+        stored.hexahedra.size() != 4 * stored.tetrahedra.size())
+      refuse("it has hexahedra and tetrahedra: expected one kind");
     if (stored.hexahedra.empty())
-      refuse("it has no hexahedra");
+      refuse("it has no hexahedra or tetrahedra");
     if (stored.nodes_per_hexahedron.size() > 1)
       refuse("it has hexahedra with " +
              std::to_string(*stored.nodes_per_hexahedron.begin()) +

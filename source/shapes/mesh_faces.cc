@@ -142,30 +142,13 @@ namespace Debond
   void
   MeshBuilder::check_contact_face() const
   {
-    std::map<unsigned int, std::vector<unsigned int>> faces_at_edge;
-    const auto at_face = cells_at_contact_face(mesh->triangulation);
-    Pieces     pieces(at_face.size());
-    for (unsigned int i = 0; i < at_face.size(); ++i)
-      {
-        const auto &[cell, number] = at_face[i];
-        if (i > 0 && cell == at_face[i - 1].first)
-          refuse("the hexahedron " + at_place(cell->center()) +
-                 " has several faces named contact: expected one at most; cut "
-                 "it, or name one of them otherwise");
-        for (const unsigned int l : cell->face(number)->line_indices())
-          {
-            const auto line   = cell->face(number)->line(l);
-            auto      &beside = faces_at_edge[line->index()];
-            beside.push_back(i);
-            if (beside.size() > 2)
-              refuse("more than two faces named contact meet at the edge " +
-                     at_place(line->center()) + ": expected a surface");
-            pieces.union_set(i, beside.front());
-          }
-      }
-    const unsigned int n = number_of(pieces, at_face.size());
-    if (n > 1)
-      refuse("its contact face is in " + std::to_string(n) +
-             " pieces that have no edge in common: expected one");
+    std::map<unsigned int, unsigned int> n_faces_at_edge;
+    for (const auto &[cell, number] :
+         cells_at_contact_face(mesh->triangulation))
+      for (const unsigned int l : cell->face(number)->line_indices())
+        if (const auto line = cell->face(number)->line(l);
+            ++n_faces_at_edge[line->index()] > 2)
+          refuse("more than two faces named contact meet at the edge " +
+                 at_place(line->center()) + ": expected a surface");
   }
 } // namespace Debond

@@ -64,11 +64,15 @@ namespace Debond
     const std::string ending =
       boost::to_lower_copy(std::filesystem::path(filename).extension().string(),
                            std::locale::classic());
+    StoredMesh mesh;
     if (ending == ".inp")
-      return read_abaqus_mesh(filename, refuse);
-    if (ending != ".msh")
+      mesh = read_abaqus_mesh(filename, refuse);
+    else if (ending == ".msh")
+      mesh = read_gmsh_mesh(filename, refuse);
+    else
       refuse(std::string("expected a file .msh of Gmsh or .inp of Abaqus") +
              (ending == ".vtk" ? ": Gmsh or meshio write .msh of it" : ""));
-    return read_gmsh_mesh(filename, refuse);
+    mesh.cut_tetrahedra();
+    return mesh;
   }
 } // namespace Debond

@@ -36,11 +36,6 @@ namespace Debond
       refuse(body.layer_grading != 1.,
              "Layer grading",
              of_file + ": expected 1");
-      refuse(body.mesh && body.mesh->order == 2 &&
-               body.element == ElementKind::trilinear,
-             "Element",
-             "the cells of the file are of the second order: expected "
-             "quadratic");
     }
   } // namespace
 
@@ -50,7 +45,7 @@ namespace Debond
   file_shapes()
   {
     return {{"file",
-             "the hexahedra of a Mesh file",
+             "the cells of a Mesh file",
              true,
              true,
              {"Mesh file"},
@@ -87,6 +82,17 @@ namespace Debond
 
 
 
+  bool
+  BodyParameters::is_in_socket() const
+  {
+    if (!mesh || shape != BodyShape::file)
+      return geometry().is_in_bore();
+    const dealii::BoundingBox<3> &face = mesh->box_of_face;
+    return face.side_length(2) > 0.25 * face.side_length(0);
+  }
+
+
+
   // Circles of shapes are exact, whatever the elements: their faces are of the
   // second degree. Those of files are as their elements.
   NurbsSurface
@@ -94,13 +100,18 @@ namespace Debond
   {
     const bool is_smooth = body.contact_surface == SurfaceKind::nurbs;
     if (body.mesh)
-      return contact_surface_of(*body.mesh,
-                                is_smooth &&
-                                    (body.shape != BodyShape::file ||
-                                     body.element == ElementKind::quadratic) ?
-                                  2 :
-                                  1,
-                                side);
+      {
+        const bool   is_of_file = body.shape == BodyShape::file;
+        NurbsSurface face       = contact_surface_of(
+          *body.mesh,
+          is_smooth && (!is_of_file || body.element == ElementKind::quadratic) ?
+                  2 :
+                  1,
+          side);
+        if (is_of_file)
+          face.cut_at_edges(largest_smooth_angle);
+        return face;
+      }
     const NurbsSurface face = body.shape_row().contact_face(body);
     return is_smooth ? face : face.bilinear_interpolant();
   }

@@ -1,11 +1,57 @@
+#include <debond/geometry/surface_geometry.h>
 #include <debond/interface/interface_parameters.h>
 #include <debond/shapes/body_parameters.h>
 #include <debond/system/press_fit.h>
+
+#include <Eigen/Dense>
 
 #include <cmath>
 
 namespace Debond
 {
+  namespace
+  {
+    /** Of each control point the shortest way by which all faces that meet
+     *  there stand out by 1, whatever their normals n: n . v = 1, by least
+     *  squares where these are nearly the same. */
+    ControlNet
+    outwards_of(const NurbsSurface &face)
+    {
+      std::vector<std::vector<Eigen::Vector3d>> normals(
+        face.n_control_points());
+      const unsigned int p = face.degree();
+      for (unsigned int element = 0; element < face.n_elements(); ++element)
+        for (unsigned int k = 0; k < (p + 1) * (p + 1); ++k)
+          {
+            const Eigen::Vector2d at(double(k % (p + 1)) / p,
+                                     double(k / (p + 1)) / p);
+            SurfaceBasis          basis;
+            SurfaceGeometry       geometry;
+            face.evaluate_in_element(element,
+                                     face.element_bounds(element)[0] + at,
+                                     basis);
+            contract(basis, face.control_points(), geometry);
+            normals[basis.control_point[k]].push_back(
+              -geometry.a1.cross(geometry.a2).normalized());
+          }
+      ControlNet result(3, normals.size());
+      for (unsigned int A = 0; A < normals.size(); ++A)
+        {
+          Eigen::MatrixXd n(normals[A].size(), 3);
+          for (unsigned int i = 0; i < normals[A].size(); ++i)
+            n.row(i) = normals[A][i];
+          Eigen::JacobiSVD<Eigen::MatrixXd> svd(n,
+                                                Eigen::ComputeThinU |
+                                                  Eigen::ComputeThinV);
+          svd.setThreshold(0.3); // below that they are one normal
+          result.col(A) = svd.solve(Eigen::VectorXd::Ones(n.rows()));
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   PressFit::PressFit(const InterfaceParameters &interface,
                      const BodyParameters      &implant,
                      const NurbsSurface        &face)
@@ -14,10 +60,15 @@ namespace Debond
     if (!interface.has_interference())
       return;
     // A thicker implant is one whose face stands further out by half of the
-    // interference, in the direction of BodyGeometry::outwards(): control
-    // points move, and the face with them.
-    interference  = read_time_function(interface.interference,
+    // interference, in the direction of BodyGeometry::outwards(), or of the
+    // normals of a file: control points move, and the face with them.
+    interference = read_time_function(interface.interference,
                                       implant.characteristic_radius());
+    if (implant.shape == BodyShape::file)
+      {
+        outwards = outwards_of(face);
+        return;
+      }
     const auto &X = face.control_points();
     outwards.resize(3, X.cols());
     for (unsigned int A = 0; A < X.cols(); ++A)

@@ -613,16 +613,6 @@ main()
     node += before;
   refused("two pieces", mesh);
 
-  mesh = first_order;
-  for (auto &face : mesh.faces)
-    if (face.group == 3)
-      face.group = 1;
-  refused("two contact faces of a hexahedron", mesh);
-  mesh = block(3, 8, as_it_is);
-  for (auto &face : mesh.faces)
-    if (face.group == 1 && (face.hexahedron - 1) % 3 == 1)
-      face.group = 4;
-  refused("contact face in pieces", mesh);
 
   std::string abaqus = abaqus_text(first_order);
   for (const std::string keyword : {"*System\n1, 0, 0\n",
@@ -639,7 +629,7 @@ main()
   refused("node twice", "*Node\n1, 0, 0, 0\n1, 0, 0, 1\n", ".inp");
   refused("no coordinates", "*Node\n1, 0, 0\n", ".inp");
   // also where faces of them are named, before or after
-  for (const std::string type : {"C3D4", "C3D6", "S4R"})
+  for (const std::string type : {"C3D6", "S4R"})
     refused("faces of " + type,
             "*Surface, name=contact, type=element\n1, S1\n*Element, type=" +
               type + "\n1, 1, 2, 3, 4\n",

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <bitset>
+#include <map>
 #include <vector>
 
 namespace Debond
@@ -191,7 +192,8 @@ namespace Debond
       return own_nodes;
     }
     /** True if cells have nodes that follow others: hanging nodes, or those of
-     *  a cell that touches the contact face at an edge or a corner only. */
+     *  a cell that touches the contact face at an edge or a corner only, or
+     *  has a second face on it. */
     bool
     cells_have_followers() const
     {
@@ -262,7 +264,9 @@ namespace Debond
     void
     tie_hanging_nodes();
     void
-    tie(const Cell &cell, const std::vector<unsigned int> &nodes_of_fe);
+    tie(const ContactFace               &face,
+        unsigned int                     element,
+        const std::vector<unsigned int> &nodes_of_fe);
     void
     deal_out();
 
@@ -279,9 +283,13 @@ namespace Debond
     std::vector<Eigen::Vector3d>      reference_positions;
     std::vector<bool>                 fixed, tied;
     std::vector<Cell>                 bulk_cells;
-    unsigned int                      n_nodes_of_fe      = 0;
-    bool                              followers_in_cells = false;
-    dealii::IndexSet                  own_nodes;
+    /** Cells that have more than one contact face: their others, and the
+     *  elements of the surface. */
+    std::multimap<unsigned int, std::pair<ContactFace, unsigned int>>
+                     other_contact_faces;
+    unsigned int     n_nodes_of_fe      = 0;
+    bool             followers_in_cells = false;
+    dealii::IndexSet own_nodes;
   };
 
 

@@ -104,6 +104,24 @@ namespace Debond
     static NurbsSurface
     joined(const std::vector<NurbsSurface> &patches);
 
+    /** Separates elements whose normals differ by more than @p angle [rad] in
+     *  the middle of a side, unless there is a smooth way around: pieces share
+     *  control points at edges, and nothing slides from one to another. Of
+     *  several patches. */
+    void
+    cut_at_edges(double angle);
+    /** Parts of the surface that no element is between. */
+    unsigned int
+    n_pieces() const
+    {
+      return number_of_pieces;
+    }
+    unsigned int
+    piece(const unsigned int element) const
+    {
+      return is_one_patch() ? 0 : faces[element].piece;
+    }
+
     unsigned int
     degree() const
     {
@@ -345,7 +363,7 @@ namespace Debond
     {
       std::vector<unsigned int>   control_points;
       std::array<unsigned int, 4> corners{{0, 0, 0, 0}};
-      unsigned int                patch = 0;
+      unsigned int                patch = 0, piece = 0;
       std::array<unsigned int, 2> span{{0, 0}};
       struct Neighbour
       {
@@ -363,6 +381,8 @@ namespace Debond
               const std::vector<unsigned int> &own_corners);
     Place
     across(unsigned int face, unsigned int side, double along) const;
+    Eigen::Vector3d
+    normal_at_side(unsigned int face, unsigned int side) const;
 
     std::array<KnotVector, 2>              knot_vectors;
     ControlNet                             points;
@@ -370,7 +390,7 @@ namespace Debond
     bool                                   is_rational; ///< a weight is not 1
     std::vector<Face>                      faces;       ///< empty: one patch
     std::vector<std::array<KnotVector, 2>> patch_knots; ///< of several
-    unsigned int                           n_in_row = 1;
+    unsigned int                           n_in_row = 1, number_of_pieces = 1;
     std::vector<std::vector<unsigned int>> faces_at; ///< corners
   };
 } // namespace Debond

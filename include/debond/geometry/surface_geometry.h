@@ -91,6 +91,9 @@ namespace Debond
    * Without: global start (nearest of a coarse set of sample points of every
    * element that can still win), then Newton safeguarded by line search,
    * constrained to [0,1]^2.
+   * Of a surface of several pieces those count where a_1 x a_2 is less than 60
+   * degrees off the direction @p towards, a unit vector; without it that of the
+   * guess.
    * The singular corners of the disk are met only as a border result; there the
    * iteration may converge linearly but must end.
    */
@@ -98,7 +101,8 @@ namespace Debond
   closest_point(const NurbsSurface    &surface,
                 const ControlNet      &control_points,
                 const Eigen::Vector3d &x,
-                const Eigen::Vector2d *guess = nullptr);
+                const Eigen::Vector2d *guess   = nullptr,
+                const Eigen::Vector3d *towards = nullptr);
 
 
 

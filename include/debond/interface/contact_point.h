@@ -22,10 +22,13 @@ namespace Debond
      *  [mm]. */
     double height = 0;
   };
+  /** On pieces that face the slave, whose @p normal at x points out of it; if
+   *  it has none on that of the guess. */
   Projection
   project(const MasterSurface   &master,
           const Eigen::Vector3d &x,
-          const Eigen::Vector2d *guess);
+          const Eigen::Vector2d *guess,
+          const Eigen::Vector3d *normal = nullptr);
 
   /** Viscous resistance eta / dt per sliding distance of a step [MPa/mm]; 0
    *  where there is no friction. */

@@ -210,6 +210,12 @@ namespace Debond
       return 0.5 * std::min(width(0), width(1));
     }
 
+    /** Whether the contact face of an implant is a bore, or, of a file, higher
+     *  than a quarter of its width: there is no push then, and no rim that
+     *  leaves the bone. */
+    bool
+    is_in_socket() const;
+
     /** Sides of the cells across a block along x (0) or y (1), as fractions of
      *  its edge from 0 to 1. */
     std::vector<double>

@@ -36,6 +36,9 @@ namespace Debond
     all
   };
 
+  /** Faces that meet at a larger angle meet at an edge [rad]. */
+  constexpr double largest_smooth_angle = 0.7;
+
   /** Cells that have a face there, and its number, in the order of the surface
    *  elements of contact_surface_of(). */
   std::vector<

@@ -33,6 +33,11 @@ namespace Debond
     std::vector<dealii::Point<3>> nodes;
     /** Of each hexahedron the node at each of its places, or none. */
     std::vector<std::array<unsigned int, 27>> hexahedra;
+    /** Of each tetrahedron its vertices, and the middles of these edges or
+     *  none. */
+    std::vector<std::array<unsigned int, 10>> tetrahedra;
+    static constexpr unsigned int             edges[6][2] =
+      {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
     /** Into how many nodes they have, 8, 20 or 27; all numbers that occur. */
     std::set<unsigned int> nodes_per_hexahedron;
     /** How many solids of other kinds there are. */
@@ -52,6 +57,9 @@ namespace Debond
     void
     add_hexahedron(const std::vector<unsigned int> &nodes,
                    const std::vector<unsigned int> &places);
+    /** Makes hexahedra of tetrahedra, four each, if there are no others. */
+    void
+    cut_tetrahedra();
   };
 
   /** All versions of Gmsh's .msh. */

@@ -1,0 +1,278 @@
+"""Meshes and a scene from CAD: python3 -m debond mesh IMPLANT.step [BONE.step] --size 0.5 --out NAME.
+
+Faces that both bodies have become `contact`, and are cut alike on both sides. Gmsh reads the STEP files, in mm whatever their
+unit, and fills the bodies with tetrahedra of ten nodes, which debond cuts into hexahedra."""
+
+import math
+import os
+
+import gmsh
+import numpy
+
+from .errors import InputError, expect
+from .files import say, write_whole
+
+#: Faces of a body that can be named in a word: which coordinate is the same all over, and at which end of the body.
+ENDS = {"top": (2, 1), "bottom": (2, 0), "left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1)}
+COLOURS = {"contact": (214, 96, 77), "held": (67, 147, 195), "free": (200, 200, 200)}
+TETRAHEDRON_10, TRIANGLE_6 = 11, 9  # of Gmsh
+
+SCENE = """# {title}. Meshes of {sources}, made by
+#   {command}
+# What stands behind <<< is missing: lines of debond --check say which values are usual.
+set Title = {title}
+
+subsection Bone
+  set Shape         = file
+  set Mesh file     = {name}_bone.msh
+  # set Young modulus = <<< MPa
+end
+
+subsection Implant
+  set Shape         = file
+  set Mesh file     = {name}_implant.msh
+  set Young modulus = 113000    # MPa, Ti-6Al-4V
+end
+
+subsection Interface
+  # set Normal stiffness              = <<< MPa/mm
+  set Tangential stiffness          = auto   # as the normal one
+  # set Friction coefficient broken   = <<<
+  # set Friction coefficient unbroken = <<<
+  # set Characteristic slip distance  = <<< mm
+  set Transition factor             = 1
+  subsection Bonding
+    # set Bonding degree = <<< 0 to 1
+  end
+end
+
+subsection Chuck
+  subsection Translation z
+    set Value = 0.1 * t    # mm: the implant is pulled along z
+  end
+end
+
+subsection Load steps
+  set Times = 0, 1
+end
+
+subsection Output
+  set Directory = {name}_results
+end
+"""
+
+
+def _mm(number) -> str:
+    return f"{number:.4g}"
+
+
+def _box(dimension, tag):
+    """Lowest and highest corner (2, 3) [mm]."""
+    return numpy.reshape(gmsh.model.getBoundingBox(dimension, tag), (2, 3))
+
+
+def _faces(solid):
+    return {tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)}
+
+
+def _number(option, text):
+    """A length [mm]."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    expect(0 < number < 1e4, option, text, "a length in mm")
+    return number
+
+
+def _read(filename):
+    """The one solid of a STEP file, in mm."""
+    expect(os.path.isfile(filename), "mesh", filename, "a STEP file that is there")
+    try:
+        found = gmsh.model.occ.importShapes(filename)
+    except Exception as error:  # of OpenCASCADE, of many kinds
+        raise InputError(f"mesh: {filename}: it cannot be read: {error}") from None
+    solids = [tag for dimension, tag in found if dimension == 3]
+    if len(solids) != 1:
+        raise InputError(f"mesh: {filename}: it has {len(solids)} solids: expected one; " +
+                         ("join them, or export the one that is meant" if solids else "close the surface in the CAD program, and export a solid"))
+    gmsh.model.occ.synchronize()
+    size = max(_box(3, solids[0])[1] - _box(3, solids[0])[0])
+    say(f"{filename}: {' x '.join(map(_mm, _box(3, solids[0])[1] - _box(3, solids[0])[0]))} mm, {_mm(gmsh.model.occ.getMass(3, solids[0]))} mm^3")
+    if not 0.5 < size < 500:
+        say(f"warning: {filename} is {_mm(size)} mm long: is its unit that of the drawing?")
+    return solids[0]
+
+
+def _block(text, implant, depth):
+    """Bone around an implant that is `depth` deep in it, or all of it [mm]: AxBxC is a block, DxC a cylinder of diameter D."""
+    sizes, (low, high) = [_number("--bone", part) for part in text.split("x")], _box(3, implant)
+    expect(len(sizes) in (2, 3), "--bone", text, "AxBxC of a block or DxC of a cylinder, in mm")
+    (x, y), top = ((low + high) / 2)[:2], low[2] + _number("--depth", depth) if depth else high[2]
+    if len(sizes) == 3:
+        return gmsh.model.occ.addBox(x - sizes[0] / 2, y - sizes[1] / 2, top - sizes[2], *sizes)
+    return gmsh.model.occ.addCylinder(x, y, top - sizes[1], 0, 0, sizes[1], sizes[0] / 2)
+
+
+def _join(implant, bone):
+    """Cuts the implant out of the bone, so that faces where they touch are those of both; returns implant, bone and these faces."""
+    occ, before = gmsh.model.occ, gmsh.model.occ.getMass(3, bone)
+    left, _ = occ.cut([(3, bone)], [(3, implant)], removeTool=False)
+    if not left:
+        raise InputError("mesh: nothing is left of the bone: expected one larger than the implant, and the file of the implant first")
+    _, (of_implant, *of_bone) = occ.fragment([(3, implant)], left)
+    occ.synchronize()
+    pieces = [tag for made in of_bone for _, tag in made]
+    implant, bone = of_implant[0][1], max(pieces, key=lambda tag: occ.getMass(3, tag))
+    if len(pieces) > 1:
+        lost = sum(occ.getMass(3, tag) for tag in pieces if tag != bone)
+        say(f"warning: the implant cuts the bone into {len(pieces)} pieces; {_mm(lost)} mm^3 are left out")
+    say(f"the implant takes {_mm(before - sum(occ.getMass(3, tag) for tag in pieces))} mm^3 of the bone")
+    contact = _faces(implant) & _faces(bone)
+    if not contact:
+        raise InputError("mesh: no face of the implant lies on one of the bone: expected bodies in place, in one system of coordinates")
+    return implant, bone, contact
+
+
+def _at_ends(solid, contact, words, option):
+    """Faces of a body at its ends, or for `sides` those that are neither top nor bottom; free ones."""
+    own, (low, high) = _faces(solid) - contact, _box(3, solid)
+    slack = 1e-4 * max(high - low)
+    at = {word: {face for face in own if numpy.abs(_box(2, face)[:, d] - (low, high)[end][d]).max() < slack} for word, (d, end) in ENDS.items()}
+    at["sides"] = own - at["top"] - at["bottom"]
+    found = set()
+    for word in words.split(","):
+        expect(word in at, option, word, ", ".join(at))
+        if not at[word]:
+            raise InputError(f"{option} {word}: the body has no face there that is free")
+        found |= at[word]
+    return found
+
+
+def _fill(implant, bone, contact, size, edge_size):
+    """Tetrahedra of ten nodes, twice as large as the hexahedra that they are cut into, whose edges are `size` long at the contact
+    faces, `edge_size` along edges of these, and larger far away [mm]."""
+    field, edges = gmsh.model.mesh.field, [tag for _, tag in gmsh.model.getBoundary([(2, face) for face in contact], combined=False, oriented=False)]
+    sharp = {edge for edge in edges if gmsh.model.getType(1, edge) != "Unknown" and edges.count(edge) != 2}
+    sizes = []
+    for number, (what, tags, least) in enumerate((("FacesList", contact, 2 * size), ("EdgesList", sharp, 2 * edge_size))):
+        if tags:
+            field.add("Distance", 2 * number + 1)
+            field.setNumbers(2 * number + 1, what, sorted(tags))
+            field.setNumber(2 * number + 1, "NNodesByEdge", 100)
+            field.add("Threshold", 2 * number + 2)
+            for name, value in (("IField", 2 * number + 1), ("LcMin", least), ("LcMax", 8 * size), ("DistMin", 0.5 * least), ("DistMax", 10 * size)):
+                field.setNumber(2 * number + 2, name, value)
+            sizes.append(2 * number + 2)
+    field.add("Min", 9)
+    field.setNumbers(9, "FieldsList", sizes)
+    field.setAsBackgroundMesh(9)
+    for name, value in (("MeshSizeExtendFromBoundary", 0), ("MeshSizeFromPoints", 0), ("MeshSizeFromCurvature", 0), ("ElementOrder", 2), ("HighOrderOptimize", 1)):
+        gmsh.option.setNumber("Mesh." + name, value)
+    gmsh.model.removeEntities([(3, tag) for _, tag in gmsh.model.getEntities(3) if tag not in (implant, bone)], recursive=True)
+    gmsh.model.mesh.generate(3)
+
+
+def _smallest_angle(solid):
+    """Between two faces of a tetrahedron of a body, at its vertices [deg]; and how many there are."""
+    nodes, x, _ = gmsh.model.mesh.getNodes()
+    place = numpy.zeros((int(max(nodes)) + 1, 3))
+    place[nodes.astype(int)] = x.reshape(-1, 3)
+    own = gmsh.model.mesh.getElementsByType(TETRAHEDRON_10, solid)[1].reshape(-1, 10)[:, :4]
+    corners, smallest = place[own.astype(int)], 180.0
+    for i, j, k, m in ((0, 1, 2, 3), (0, 2, 1, 3), (0, 3, 1, 2), (1, 2, 0, 3), (1, 3, 0, 2), (2, 3, 0, 1)):
+        edge = corners[:, j] - corners[:, i]
+        a, b = (numpy.cross(edge, corners[:, n] - corners[:, i]) for n in (k, m))
+        cosine = (a * b).sum(axis=1) / numpy.linalg.norm(a, axis=1) / numpy.linalg.norm(b, axis=1)
+        smallest = min(smallest, math.degrees(math.acos(min(1.0, cosine.max()))))
+    return smallest, len(own)
+
+
+def _write(filename, solid, groups):
+    """One body, with its named faces."""
+    gmsh.model.removePhysicalGroups()
+    gmsh.model.addPhysicalGroup(3, [solid])
+    for name, faces in groups.items():
+        gmsh.model.removePhysicalName(name)
+        if faces:
+            gmsh.model.setPhysicalName(2, gmsh.model.addPhysicalGroup(2, sorted(faces)), name)
+    gmsh.write(filename)
+
+
+def _triangles(faces):
+    """Corners (n, 3, 3) [mm]."""
+    result = []
+    for face in faces:
+        tags, x, _ = gmsh.model.mesh.getNodes(2, face, includeBoundary=True)
+        place = dict(zip(tags, x.reshape(-1, 3)))
+        own = gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[1].reshape(-1, 6)[:, :3]
+        result += [[place[node] for node in triangle] for triangle in own]
+    return numpy.array(result).reshape(-1, 3, 3)
+
+
+def _picture(bodies):
+    """Both bodies from the side and above, one beside the other, the bone cut open; colours say which faces are named. SVG."""
+    view = numpy.array([[0.866, -0.5, 0.0], [0.25, 0.433, 0.866], [0.433, 0.75, -0.5]])  # right, up, away
+    drawn, left = [], 0.0
+    for solid, groups, is_cut in bodies:
+        parts = []
+        for face in _faces(solid):
+            kind = next((name for name, faces in groups.items() if face in faces), "free")
+            triangles = _triangles([face])
+            parts += [(kind.split()[0] if kind.split()[0] in COLOURS else "held", one) for one in triangles]
+        middle = numpy.mean([one.mean(axis=0) for _, one in parts], axis=0)
+        if is_cut:
+            parts = [(kind, one) for kind, one in parts if (one.mean(axis=0) - middle) @ [0.5, 0.866, 0] > 0]
+        seen = [(kind, one @ view.T, numpy.cross(one[1] - one[0], one[2] - one[0])) for kind, one in parts]
+        shift = left - min(one[:, 0].min() for _, one, _ in seen)
+        left = shift + max(one[:, 0].max() for _, one, _ in seen) + 0.05 * abs(left - shift) + 1
+        for kind, one, normal in sorted(seen, key=lambda part: -part[1][:, 2].mean()):
+            light = 0.55 + 0.45 * abs(normal @ [0.3, -0.5, 0.8]) / (numpy.linalg.norm(normal) + 1e-300)
+            drawn.append(((one[:, :2] + [shift, 0]) * [1, -1], "#%02x%02x%02x" % tuple(int(light * c) for c in COLOURS[kind])))
+    low = numpy.min([points.min(axis=0) for points, _ in drawn], axis=0)
+    high = numpy.max([points.max(axis=0) for points, _ in drawn], axis=0)
+    scale = 900 / (high - low)[0]
+    polygons = "".join('<polygon points="%s" fill="%s"/>\n' % (" ".join("%.1f,%.1f" % tuple(scale * (p - low) + 10) for p in points), colour)
+                       for points, colour in drawn)
+    height = scale * (high - low)[1] + 50
+    words = "".join(f'<text x="{20 + 180 * i}" y="{height - 12:.0f}" fill="rgb{COLOURS[kind]}">{kind}</text>' for i, kind in enumerate(COLOURS))
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="920" height="{height:.0f}" font-family="sans-serif" stroke="#555" '
+            f'stroke-width="0.3">\n{polygons}{words}</svg>\n')
+
+
+def _mesh(files, options):
+    """Reads, joins, fills and writes; prints what has come of it."""
+    implant = _read(files[0])
+    if len(files) > 1:
+        bone = _read(files[1])
+    elif options["--bone"]:
+        bone = _block(options["--bone"], implant, options["--depth"])
+    else:
+        raise InputError("mesh: there is no bone: expected a second STEP file, or --bone 12x12x8 for a block around the implant")
+    implant, bone, contact = _join(implant, bone)
+    groups = {implant: {"contact": contact, "held": _at_ends(implant, contact, options["--held"], "--held")},
+              bone: {"contact": contact, "held": _at_ends(bone, contact, options["--bone-held"], "--bone-held")}}
+    size = _number("--size", options["--size"] or math.sqrt(sum(gmsh.model.occ.getMass(2, face) for face in contact) / 40))
+    _fill(implant, bone, contact, size, _number("--edge-size", options["--edge-size"] or size))
+    name = options["--out"]
+    for solid, body in ((implant, "implant"), (bone, "bone")):
+        angle, cells = _smallest_angle(solid)
+        areas = ", ".join(f"{kind} {_mm(sum(gmsh.model.occ.getMass(2, face) for face in faces))} mm^2" for kind, faces in groups[solid].items())
+        say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra, {4 * cells} cells, smallest angle {angle:.0f} degrees")
+        _write(f"{name}_{body}.msh", solid, groups[solid])
+    write_whole(name + ".svg", _picture([(implant, groups[implant], False), (bone, groups[bone], True)]))
+    command = f"python3 -m debond mesh {' '.join(files)}" + "".join(f" {word} {value}" for word, value in options.items() if value)
+    write_whole(name + ".prm", SCENE.format(title=f"{os.path.basename(files[0])} in bone", sources=" and ".join(files), command=command, name=name))
+    say(f"{name}_implant.msh, {name}_bone.msh, {name}.prm and {name}.svg written: fill in what is missing in {name}.prm")
+
+
+def main(*arguments) -> int:
+    """Writes NAME_implant.msh, NAME_bone.msh, NAME.prm and NAME.svg; returns the exit code."""
+    *files, options = arguments
+    gmsh.initialize(["debond"], False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        _mesh(files, options)
+    finally:
+        gmsh.finalize()
+    return 0

@@ -135,11 +135,12 @@ def _join(implant, bone):
 
 
 def _at_ends(solid, contact, words, option):
-    """Faces of a body at its ends, or for `sides` those that are neither top nor bottom; free ones."""
+    """Faces of a body at its ends, or for `sides` those that are neither top nor bottom and reach its ends in x or y; free ones."""
     own, (low, high) = _faces(solid) - contact, _box(3, solid)
     slack = 1e-4 * max(high - low)
     at = {word: {face for face in own if numpy.abs(_box(2, face)[:, d] - (low, high)[end][d]).max() < slack} for word, (d, end) in ENDS.items()}
-    at["sides"] = own - at["top"] - at["bottom"]
+    reaching = lambda face: numpy.abs(_box(2, face)[:, :2] - numpy.array([low, high])[:, :2]).min() < slack
+    at["sides"] = {face for face in own - at["top"] - at["bottom"] if reaching(face)}
     found = set()
     for word in words.split(","):
         expect(word in at, option, word, ", ".join(at))
@@ -149,12 +150,28 @@ def _at_ends(solid, contact, words, option):
     return found
 
 
+def _sharp_edges(faces):
+    """Edges at which these faces end, or meet at more than 40 degrees. Where one face meets itself is a seam."""
+    faces_at = {}
+    for face in faces:
+        own = [edge for _, edge in gmsh.model.getBoundary([(2, face)], combined=False, oriented=False)]
+        for edge in own:
+            if own.count(edge) == 1 and gmsh.model.getType(1, edge) != "Unknown":
+                faces_at.setdefault(edge, []).append(face)
+    sharp = set()
+    for edge, beside in faces_at.items():
+        (first,), (last,) = gmsh.model.getParametrizationBounds(1, edge)
+        middle = gmsh.model.getValue(1, edge, [(first + last) / 2])
+        normals = [gmsh.model.getNormal(face, gmsh.model.getParametrization(2, face, middle)) for face in beside]
+        if len(beside) == 1 or abs(numpy.dot(*normals[:2])) < math.cos(math.radians(40)):
+            sharp.add(edge)
+    return sharp
+
+
 def _fill(implant, bone, contact, size, edge_size):
     """Tetrahedra of ten nodes, twice as large as the hexahedra that they are cut into, whose edges are `size` long at the contact
     faces, `edge_size` along edges of these, and larger far away [mm]."""
-    field, edges = gmsh.model.mesh.field, [tag for _, tag in gmsh.model.getBoundary([(2, face) for face in contact], combined=False, oriented=False)]
-    sharp = {edge for edge in edges if gmsh.model.getType(1, edge) != "Unknown" and edges.count(edge) != 2}
-    sizes = []
+    field, sizes, sharp = gmsh.model.mesh.field, [], _sharp_edges(contact)
     for number, (what, tags, least) in enumerate((("FacesList", contact, 2 * size), ("EdgesList", sharp, 2 * edge_size))):
         if tags:
             field.add("Distance", 2 * number + 1)
@@ -167,10 +184,14 @@ def _fill(implant, bone, contact, size, edge_size):
     field.add("Min", 9)
     field.setNumbers(9, "FieldsList", sizes)
     field.setAsBackgroundMesh(9)
-    for name, value in (("MeshSizeExtendFromBoundary", 0), ("MeshSizeFromPoints", 0), ("MeshSizeFromCurvature", 0), ("ElementOrder", 2), ("HighOrderOptimize", 1)):
+    for name, value in (("MeshSizeExtendFromBoundary", 0), ("MeshSizeFromPoints", 0), ("MeshSizeFromCurvature", 0), ("ElementOrder", 2), ("HighOrderOptimize", 0)):
         gmsh.option.setNumber("Mesh." + name, value)
     gmsh.model.removeEntities([(3, tag) for _, tag in gmsh.model.getEntities(3) if tag not in (implant, bone)], recursive=True)
     gmsh.model.mesh.generate(3)
+    try:
+        gmsh.model.mesh.optimize("HighOrder")
+    except Exception:  # not as good as it wants; debond refuses cells that are tangled
+        pass
 
 
 def _smallest_angle(solid):
@@ -252,6 +273,7 @@ def _mesh(files, options):
     implant, bone, contact = _join(implant, bone)
     groups = {implant: {"contact": contact, "held": _at_ends(implant, contact, options["--held"], "--held")},
               bone: {"contact": contact, "held": _at_ends(bone, contact, options["--bone-held"], "--bone-held")}}
+    expect(bool(options["--out"]), "--out", options["--out"], "what the names of the files begin with")
     size = _number("--size", options["--size"] or math.sqrt(sum(gmsh.model.occ.getMass(2, face) for face in contact) / 40))
     _fill(implant, bone, contact, size, _number("--edge-size", options["--edge-size"] or size))
     name = options["--out"]
@@ -260,6 +282,10 @@ def _mesh(files, options):
         areas = ", ".join(f"{kind} {_mm(sum(gmsh.model.occ.getMass(2, face) for face in faces))} mm^2" for kind, faces in groups[solid].items())
         say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra, {4 * cells} cells, smallest angle {angle:.0f} degrees")
         _write(f"{name}_{body}.msh", solid, groups[solid])
+    unknowns = 72 * sum(len(gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[0]) for face in contact)  # 3 of each of 2 x 12 nodes
+    if unknowns > 10000:
+        say(f"warning: the contact faces have some {unknowns} unknowns, and time grows with their third power (6000 take a minute): "
+            "take a larger --size")
     write_whole(name + ".svg", _picture([(implant, groups[implant], False), (bone, groups[bone], True)]))
     command = f"python3 -m debond mesh {' '.join(files)}" + "".join(f" {word} {value}" for word, value in options.items() if value)
     write_whole(name + ".prm", SCENE.format(title=f"{os.path.basename(files[0])} in bone", sources=" and ".join(files), command=command, name=name))
@@ -273,6 +299,10 @@ def main(*arguments) -> int:
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         _mesh(files, options)
+    except InputError:
+        raise
+    except Exception as error:  # Gmsh raises nothing else; a file that cannot be written, cells that cannot be made
+        raise InputError(f"mesh: Gmsh gave up: {error}") from None
     finally:
         gmsh.finalize()
     return 0

@@ -410,11 +410,12 @@ namespace Debond
       Descent              descent(problem, element, xi);
       const bool           converged = descent.minimise();
       const DistanceState &s         = descent.s;
+      // on a fillet it may have slid to where the surface does not count
+      const bool is_found = converged && problem.counts(s.y);
       return {s.xi,
               s.r.norm(),
-              converged && is_orthogonal(problem.surface, s) &&
-                problem.counts(s.y),
-              converged};
+              is_found && is_orthogonal(problem.surface, s),
+              is_found};
     }
 
 
@@ -525,7 +526,7 @@ namespace Debond
     ClosestPoint
     search_globally(const DistanceProblem &problem)
     {
-      ClosestPoint best{{}, infinity, false, false};
+      ClosestPoint best{Vector2d::Zero(), infinity, false, false};
       unsigned int n = 0;
       for (const Candidate &candidate : starting_points(problem))
         {

@@ -159,15 +159,15 @@ namespace Debond
   // Corners are those of pieces from then on, so that neither sides nor corners
   // lead from one to another.
   void
-  NurbsSurface::cut_at_edges(const double angle)
+  NurbsSurface::cut_at_edges(const double angle, const NurbsSurface &shape)
   {
     boost::disjoint_sets_with_storage<> connected(faces.size());
     for (unsigned int f = 0; f < faces.size(); ++f)
       for (unsigned int s = 0; s < 4; ++s)
         if (const Face::Neighbour &next = faces[f].across[s];
             next.face >= 0 &&
-            normal_at_side(f, s).dot(normal_at_side(next.face, next.side)) >
-              std::cos(angle))
+            shape.normal_at_side(f, s).dot(
+              shape.normal_at_side(next.face, next.side)) > std::cos(angle))
           connected.union_set(f, unsigned(next.face));
     std::map<unsigned int, unsigned int>                          pieces;
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> corners;

@@ -68,6 +68,18 @@ namespace Debond
                                                x,
                                                guess,
                                                normal ? &towards : nullptr);
+    // What faces nothing may come to face something as it turns, but touches
+    // nothing before it has come as near as the nearest piece is.
+    if (!std::isfinite(closest.distance))
+      {
+        const ClosestPoint nearest =
+          closest_point(*master.surface, *master.positions, x);
+        Projection nothing;
+        nothing.xi        = nearest.xi;
+        nothing.converged = true;
+        nothing.clearance = nearest.distance;
+        return nothing;
+      }
     // Where it is, and the tangents there, Eq. (23). In the corners of the
     // disk's patch they are parallel, and their cross product, the normal of
     // Eq. (24), has no direction.

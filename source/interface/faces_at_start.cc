@@ -22,12 +22,14 @@ namespace Debond
      * its radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above
      * the plane of its neighbour: three times that or more, up to theta = 60
      *  degrees, from where on there is an edge. Both directions add up.
-     *  Elements that are curved themselves: a twentieth; of files three, as
-     *  two of them may be halves of one. */
+     *  Elements that are curved themselves: a twentieth. Of files three times
+     *  as much, and what those beside are off, as several elements may be parts
+     *  of one triangle, plane or not. */
     std::vector<double>
     errors_of_facets(const NurbsSurface &surface, const bool is_of_file)
     {
-      const double share = surface.degree() == 1 ? 3. : is_of_file ? 20. : 60.;
+      const double share =
+        (surface.degree() == 1 ? 3. : 60.) / (is_of_file ? 3. : 1.);
       std::vector<double> result(surface.n_elements(), 0.);
       // one patch is the smooth surface itself
       if (surface.is_one_patch())
@@ -61,6 +63,19 @@ namespace Debond
               result[middle.element] += highest / share;
             }
         }
+      if (!is_of_file)
+        return result;
+      const std::vector<double> own = result;
+      for (const auto &middle : middles)
+        for (unsigned int side = 0; side < 4; ++side)
+          {
+            Eigen::Vector2d xi = middle.xi;
+            xi[side / 2] =
+              surface.element_bounds(middle.element)[side % 2][side / 2];
+            for (const auto &place : surface.places_beside(middle.element, xi))
+              result[middle.element] =
+                std::max(result[middle.element], own[place.element]);
+          }
       return result;
     }
   } // namespace
@@ -94,25 +109,30 @@ namespace Debond
                                                  is_of_file(master_side())),
                               own = errors_of_facets(mesh[slave]->surface(),
                                                      is_of_file(slave));
-    const MasterSurface master{&surface,
+    const MasterSurface                                   master{&surface,
                                &surface.control_points(),
                                mesh[master_side()]->outward_sign()};
-    const bool          takes_off = law.joint->pulls() ||
-                           parameters.has_interference() ||
-                           is_of_file(Side::bone) || is_of_file(Side::implant);
-    bool   fits   = true;
+    bool                                                  fits = true;
+    std::vector<std::pair<SlavePoint *, Eigen::Vector3d>> gaps;
     double lowest = std::numeric_limits<double>::max(), highest = -lowest;
     const Eigen::Vector2d *guess = nullptr;
     for (SlavePoint &point : points)
       {
         const Eigen::Vector3d normal =
           normal_of_slave(point, mesh[slave]->surface().control_points());
-        const Projection rest = project(master, point.X, guess, &normal);
+        Projection rest = project(master, point.X, guess, &normal);
+        // Of several pieces another one may be nearer than that of the point
+        // before, unless this one is as near as points are to each other. A
+        // search over all of them for each point would take longer than all
+        // else where faces are many.
+        if (surface.n_pieces() > 1 &&
+            !(rest.faces && std::abs(rest.height) < std::sqrt(point.JxW)))
+          rest = project(master, point.X, nullptr, &normal);
+        point.accepted.has_partner = rest.faces;
         if (!rest.faces)
           continue;
         point.accepted.xi = rest.xi;
-        if (surface.n_pieces() == 1)
-          guess = &point.accepted.xi;
+        guess             = &point.accepted.xi;
         const double facets =
                        own[point.element] + errors[surface.element_of(rest.xi)],
                      gap = std::abs(rest.height);
@@ -124,24 +144,41 @@ namespace Debond
         // G in the frame of the slave at rest [mm], with both faces where they
         // were made.
         const Eigen::Vector3d G = point.X - surface.point(rest.xi);
-        if (!takes_off || gap > facets || G.norm() <= touch_tolerance)
-          continue;
-        at_start.largest_gap = std::max(at_start.largest_gap, G.norm());
-        unsigned int number  = mesh[slave]->surface().n_control_points();
-        // As functions of four further control points, the origin of the frame
-        // and the ends of its axes, see
-        // InterfaceConfiguration::Surface::add_frame(): G turns with the frame,
-        // and interpolate() and spread() need not know of it.
-        for (const double N : {G.sum(), -G[0], -G[1], -G[2]})
-          {
-            const unsigned int k         = point.basis.size++;
-            point.basis.control_point[k] = number++;
-            point.basis.N[k]             = N;
-            point.basis.N_1[k] = point.basis.N_2[k] = 0.;
-          }
+        if (gap <= facets && G.norm() > touch_tolerance)
+          gaps.emplace_back(&point, G);
       }
+    // Facets of two meshes of one face cross each other: somewhere there is no
+    // gap. Bodies of files that are apart, or overlap, all over are meant to:
+    // an implant drawn thicker than its hole is a press fit.
+    const bool vanish = lowest <= 0.1 * highest && highest >= 0.1 * lowest,
+               takes_off =
+                 law.joint->pulls() || parameters.has_interference() ||
+                 (vanish &&
+                  (is_of_file(Side::bone) || is_of_file(Side::implant)));
+    for (unsigned int k = 0; takes_off && k < gaps.size(); ++k)
+      take_off(*gaps[k].first, gaps[k].second);
     if (fits && !takes_off)
       at_start.uneven = std::max(0., highest - lowest);
+  }
+
+
+
+  // G becomes functions of four further control points, the origin of the frame
+  // and the ends of its axes, see InterfaceConfiguration::Surface::add_frame():
+  // it turns with the frame, and interpolate() and spread() need not know of
+  // it.
+  void
+  ContactInterface::take_off(SlavePoint &point, const Eigen::Vector3d &G)
+  {
+    at_start.largest_gap = std::max(at_start.largest_gap, G.norm());
+    unsigned int number  = mesh[slave]->surface().n_control_points();
+    for (const double N : {G.sum(), -G[0], -G[1], -G[2]})
+      {
+        const unsigned int k         = point.basis.size++;
+        point.basis.control_point[k] = number++;
+        point.basis.N[k]             = N;
+        point.basis.N_1[k] = point.basis.N_2[k] = 0.;
+      }
   }
 
 
@@ -232,18 +269,22 @@ namespace Debond
     // From one point to the next: a search over the whole master asks all of
     // its elements.
     const SlavePoint *neighbour = nullptr;
+    const bool has_pieces       = mesh[master_side()]->surface().n_pieces() > 1;
     for (SlavePoint &point : points)
       {
         // the guess of the search, xi of the point before
         if (neighbour != nullptr)
           point.accepted.xi = neighbour->accepted.xi;
+        // on several pieces the place where it was found, find_facets()
         point.trial.normal_gap =
-          project_accepted(point, configuration, neighbour != nullptr).height;
+          project_accepted(point,
+                           configuration,
+                           has_pieces ? point.accepted.has_partner :
+                                        neighbour != nullptr)
+            .height;
         if (!shares.empty())
           shares[&point - points.data()].xi = point.accepted.xi;
-        // which may be on another piece that faces them both
-        if (point.accepted.has_partner &&
-            mesh[master_side()]->surface().n_pieces() == 1)
+        if (point.accepted.has_partner && !has_pieces)
           neighbour = &point;
       }
     assign_bonding();

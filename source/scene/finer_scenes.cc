@@ -93,6 +93,20 @@ namespace Debond
 
 
 
+    /** Whether bodies from files may be trilinear: both, or the error of one
+     *  would be missing. */
+    bool
+    has_trilinear_cells(const Scene &scene)
+    {
+      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+        if (body->shape == BodyShape::file && !body->is_rigid() &&
+            !(body->mesh && body->mesh->has_cells_of_corners))
+          return false;
+      return true;
+    }
+
+
+
     using Changes = std::map<std::string, std::string>;
 
     // Cells of a file stay: with fewer of the other body its elements are
@@ -107,7 +121,7 @@ namespace Debond
         if (body->shape != BodyShape::file)
           changes[section + std::string(" / Cells")] =
             text_of(*body, cells_of(*body, change, scene.is_axisymmetric()));
-        else if (change == fewer_cells &&
+        else if (change == fewer_cells && has_trilinear_cells(scene) &&
                  body->element == ElementKind::quadratic)
           changes[section + std::string(" / Element")] = "trilinear";
       if (const unsigned int under = scene.bone.cells_under_implant; under > 0)
@@ -117,7 +131,9 @@ namespace Debond
       if (bonding.pattern == BondingPatternKind::file ||
           (bonding.pattern == BondingPatternKind::random &&
            bonding.correlation_length == 0.))
-        changes.erase("Implant / Cells");
+        for (const std::string name :
+             {"Implant / Cells", "Implant / Element", "Bone / Element"})
+          changes.erase(name);
       return changes;
     }
 

@@ -104,10 +104,14 @@ namespace Debond
           {
             const unsigned int a = triangle[v], b = triangle[(v + 1) % 3],
                                c = triangle[(v + 2) % 3];
-            faces.push_back({{a,
-                              corner({a, b}, {}),
-                              corner({a, c}, {}),
-                              corner({a, b, c}, {})}});
+            const auto middle    = [&](const std::vector<unsigned int> &of) {
+              dealii::Point<3> x;
+              for (const unsigned int node : of)
+                x += mesh.nodes[node] * (1. / of.size());
+              return corner(of, x);
+            };
+            faces.push_back(
+              {{a, middle({a, b}), middle({a, c}), middle({a, b, c})}});
           }
       }
 

@@ -96,7 +96,25 @@ namespace Debond
           refuse("the hexahedron " + at_place(x[26]) +
                  " is tangled or flat (the determinant of the Jacobian changes "
                  "its sign)");
+        mesh->has_cells_of_corners =
+          mesh->has_cells_of_corners && !is_tangled(without_middles(x));
       }
+  }
+
+
+
+  MeshBuilder::Points
+  MeshBuilder::without_middles(const Points &x) const
+  {
+    Points result = x;
+    for (unsigned int p = 8; p < 27; ++p)
+      {
+        result[p]       = Point();
+        const auto &own = corners_of_places()[p];
+        for (const unsigned int c : own)
+          result[p] += x[c] * (1. / own.size());
+      }
+    return result;
   }
 
 

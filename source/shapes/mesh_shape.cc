@@ -36,6 +36,11 @@ namespace Debond
       refuse(body.layer_grading != 1.,
              "Layer grading",
              of_file + ": expected 1");
+      refuse(body.mesh && !body.mesh->has_cells_of_corners &&
+               body.element == ElementKind::trilinear,
+             "Element",
+             "without the middles of edges cells of the file are tangled: "
+             "expected quadratic");
     }
   } // namespace
 
@@ -88,7 +93,8 @@ namespace Debond
     if (!mesh || shape != BodyShape::file)
       return geometry().is_in_bore();
     const dealii::BoundingBox<3> &face = mesh->box_of_face;
-    return face.side_length(2) > 0.25 * face.side_length(0);
+    return face.side_length(2) >
+           0.25 * std::min(face.side_length(0), face.side_length(1));
   }
 
 
@@ -108,8 +114,12 @@ namespace Debond
                   2 :
                   1,
           side);
+        // where a file is curved, trilinear cells have the same edges
         if (is_of_file)
-          face.cut_at_edges(largest_smooth_angle);
+          face.cut_at_edges(largest_smooth_angle,
+                            contact_surface_of(*body.mesh,
+                                               body.mesh->order,
+                                               side));
         return face;
       }
     const NurbsSurface face = body.shape_row().contact_face(body);

@@ -11,9 +11,36 @@ namespace Debond
 {
   namespace
   {
-    /** Of each control point the shortest way by which all faces that meet
-     *  there stand out by 1, whatever their normals n: n . v = 1, by least
-     *  squares where these are nearly the same. */
+    /** Of control points that make nodes of the faces move by these. */
+    ControlNet
+    control_points_of(const ControlNet &nodes, const NurbsSurface &face)
+    {
+      ControlNet result = nodes;
+      if (face.degree() == 1)
+        return result;
+      Eigen::Matrix3d along; // from values of a parabola to those of its net
+      along << 1., 0., 0., -0.5, 2., -0.5, 0., 0., 1.;
+      for (unsigned int element = 0; element < face.n_elements(); ++element)
+        {
+          const auto points = face.element_control_points(element);
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              Eigen::Matrix3d v;
+              for (unsigned int k = 0; k < 9; ++k)
+                v(k % 3, k / 3) = nodes(d, points[k]);
+              v = along * v * along.transpose();
+              for (unsigned int k = 0; k < 9; ++k)
+                result(d, points[k]) = v(k % 3, k / 3);
+            }
+        }
+      return result;
+    }
+
+
+
+    /** Of each node of the faces the shortest way by which all that meet there
+     *  stand out by 1, whatever their normals n: n . v = 1, by least squares
+     *  where these are nearly the same. */
     ControlNet
     outwards_of(const NurbsSurface &face)
     {
@@ -46,7 +73,7 @@ namespace Debond
           svd.setThreshold(0.3); // below that they are one normal
           result.col(A) = svd.solve(Eigen::VectorXd::Ones(n.rows()));
         }
-      return result;
+      return control_points_of(result, face);
     }
   } // namespace
 

@@ -104,12 +104,12 @@ namespace Debond
     static NurbsSurface
     joined(const std::vector<NurbsSurface> &patches);
 
-    /** Separates elements whose normals differ by more than @p angle [rad] in
-     *  the middle of a side, unless there is a smooth way around: pieces share
-     *  control points at edges, and nothing slides from one to another. Of
-     *  several patches. */
+    /** Separates elements whose normals on @p shape, which has the same
+     *  elements, differ by more than @p angle [rad] in the middle of a side,
+     *  unless there is a smooth way around: pieces share control points at
+     *  edges, and nothing slides from one to another. Of several patches. */
     void
-    cut_at_edges(double angle);
+    cut_at_edges(double angle, const NurbsSurface &shape);
     /** Parts of the surface that no element is between. */
     unsigned int
     n_pieces() const

@@ -498,6 +498,8 @@ namespace Debond
     /** Gives points of the bone the phi_0 of the implant that they face. */
     void
     follow_pattern();
+    void
+    take_off(SlavePoint &point, const Eigen::Vector3d &G);
     Eigen::Vector3d
     normal_of_slave(const SlavePoint &point, const ControlNet &positions) const;
     Projection

@@ -12,16 +12,17 @@
 
 namespace Debond
 {
-  /** A body as a file of hexahedra has it. Lengths are in mm. */
+  /** A body as a file has it, tetrahedra as hexahedra. Lengths are in mm. */
   struct BodyMesh
   {
     /** One piece, whose vertices are the corners of the hexahedra. Boundary ids
      *  are those of Boundary: faces named contact, held, slides x and slides y,
-     *  all others free. The contact face is in one piece, and a cell has one
-     *  face of it at most. */
+     *  all others free. */
     dealii::Triangulation<3> triangulation;
     /** 1: hexahedra with 8 nodes, 2: with 20 or 27. */
     unsigned int order = 1;
+    /** Whether cells are none that are tangled without their other nodes. */
+    bool has_cells_of_corners = true;
     /** Around its vertices, and around those of the contact face [mm]. */
     dealii::BoundingBox<3> box, box_of_face;
     unsigned int           n_contact_faces = 0;

@@ -47,6 +47,8 @@ namespace Debond
     number_vertices();
     bool
     is_tangled(const Points &x) const;
+    Points
+    without_middles(const Points &x) const;
     void
     check_coincident_vertices();
     void

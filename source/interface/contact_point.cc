@@ -68,8 +68,10 @@ namespace Debond
                                                x,
                                                guess,
                                                normal ? &towards : nullptr);
-    // What faces nothing may come to face something as it turns, but touches
-    // nothing before it has come as near as the nearest piece is.
+    // What faces nothing, such as the upper side of a collar in a hole, has no
+    // partner. It may come to face something as it turns, but touches nothing
+    // before it has come as near as the nearest piece is, whatever way that
+    // looks: so long it is not asked again.
     if (!std::isfinite(closest.distance))
       {
         const ClosestPoint nearest =

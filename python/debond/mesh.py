@@ -145,7 +145,7 @@ def _at_ends(solid, contact, words, option):
     for word in words.split(","):
         expect(word in at, option, word, ", ".join(at))
         if not at[word]:
-            raise InputError(f"{option} {word}: the body has no face there that is free")
+            raise InputError(f"{option} {word}: the body has no flat face there, or all of it is contact: expected another word, or more of the body outside")
         found |= at[word]
     return found
 
@@ -302,7 +302,7 @@ def main(*arguments) -> int:
     except InputError:
         raise
     except Exception as error:  # Gmsh raises nothing else; a file that cannot be written, cells that cannot be made
-        raise InputError(f"mesh: Gmsh gave up: {error}") from None
+        raise InputError(f"mesh: Gmsh gave up; another --size may help, or a file without slivers: {error}") from None
     finally:
         gmsh.finalize()
     return 0

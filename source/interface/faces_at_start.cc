@@ -216,8 +216,8 @@ namespace Debond
     // counts.
     const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
                        bone   = boundary(Side::bone, FacesOfMesh::all);
-    const std::vector<double> own    = errors_of_facets(others, true),
-                              errors = errors_of_facets(bone, true);
+    const std::vector<double> own    = errors_of_facets(others, false),
+                              errors = errors_of_facets(bone, false);
     const MasterSurface master{&bone,
                                &bone.control_points(),
                                mesh[Side::bone]->outward_sign()};

@@ -96,7 +96,7 @@ def main(program, post) -> int:
     for words, why in (((post,), "there is no bone"), ((post, "--bone", "8by8"), "a length in mm"), (("two.step", "--bone", "8x8x4"), "2 solids"),
                        (("gone.step", "--bone", "8x8x4"), "a STEP file that is there"), (("no.step", "--bone", "8x8x4"), "cannot be read"),
                        ((post, "far.step"), "bodies in place"), ((post, "--bone", "8x8x4", "--held", "roof"), "top, bottom"),
-                       ((post, "--bone", "8x8x4", "--held", "bottom"), "no face there that is free"), ((post, "--bone", "1x1x1"), "")):
+                       ((post, "--bone", "8x8x4", "--held", "bottom"), "no flat face there"), ((post, "--bone", "1x1x1"), "")):
         text, code = say(*words, "--out", "wrong")
         expect(code == 1 and why in text and text.count("\n") <= 4, " ".join(map(os.path.basename, words)))
     return len(failed)

@@ -37,6 +37,8 @@ end
 subsection Interface
   # set Normal stiffness              = <<< MPa/mm
   set Tangential stiffness          = auto   # as the normal one
+  # A bond under no pressure holds in tension only with these, see prm/cad/post_pulled.prm; a press fit has an Interference.
+  # set Law = adhesive
   # set Friction coefficient broken   = <<<
   # set Friction coefficient unbroken = <<<
   # set Characteristic slip distance  = <<< mm
@@ -109,6 +111,8 @@ def _block(text, implant, depth):
     sizes, (low, high) = [_number("--bone", part) for part in text.split("x")], _box(3, implant)
     expect(len(sizes) in (2, 3), "--bone", text, "AxBxC of a block or DxC of a cylinder, in mm")
     (x, y), top = ((low + high) / 2)[:2], low[2] + _number("--depth", depth) if depth else high[2]
+    if min(sizes[0] / (high - low)[0], sizes[len(sizes) - 2] / (high - low)[1], sizes[-1] / (top - low[2])) <= 1:
+        raise InputError(f"--bone {text}: expected more than the implant takes, {' x '.join(map(_mm, (*(high - low)[:2], top - low[2])))} mm")
     if len(sizes) == 3:
         return gmsh.model.occ.addBox(x - sizes[0] / 2, y - sizes[1] / 2, top - sizes[2], *sizes)
     return gmsh.model.occ.addCylinder(x, y, top - sizes[1], 0, 0, sizes[1], sizes[0] / 2)
@@ -170,7 +174,7 @@ def _sharp_edges(faces):
 
 def _fill(implant, bone, contact, size, edge_size):
     """Tetrahedra of ten nodes, twice as large as the hexahedra that they are cut into, whose edges are `size` long at the contact
-    faces, `edge_size` along edges of these, and larger far away [mm]."""
+    faces, `edge_size` along edges of these, and larger far away [mm]. Returns the fields of sizes."""
     field, sizes, sharp = gmsh.model.mesh.field, [], _sharp_edges(contact)
     for number, (what, tags, least) in enumerate((("FacesList", contact, 2 * size), ("EdgesList", sharp, 2 * edge_size))):
         if tags:
@@ -190,8 +194,9 @@ def _fill(implant, bone, contact, size, edge_size):
     gmsh.model.mesh.generate(3)
     try:
         gmsh.model.mesh.optimize("HighOrder")
-    except Exception:  # not as good as it wants; debond refuses cells that are tangled
+    except Exception:  # not as good as it wants, see _n_tangled
         pass
+    return [9, *sizes, *(tag - 1 for tag in sizes)]
 
 
 def _smallest_angle(solid):
@@ -207,6 +212,25 @@ def _smallest_angle(solid):
         cosine = (a * b).sum(axis=1) / numpy.linalg.norm(a, axis=1) / numpy.linalg.norm(b, axis=1)
         smallest = min(smallest, math.degrees(math.acos(min(1.0, cosine.max()))))
     return smallest, len(own)
+
+
+def _n_tangled():
+    """How many tetrahedra are inside out at one of the places that the corners of their hexahedra are at."""
+    nodes, x, _ = gmsh.model.mesh.getNodes()
+    place = numpy.zeros((int(max(nodes)) + 1, 3))
+    place[nodes.astype(int)] = x.reshape(-1, 3)
+    own = place[gmsh.model.mesh.getElementsByType(TETRAHEDRON_10)[1].reshape(-1, 10).astype(int)]
+    edges, is_wrong = ((0, 1), (1, 2), (2, 0), (3, 0), (3, 2), (3, 1)), numpy.zeros(len(own), dtype=bool)  # in the order of Gmsh
+    for corners in range(1, 16):
+        w = numpy.array([corners >> v & 1 for v in range(4)], dtype=float)
+        w /= w.sum()
+        by_w = numpy.zeros((10, 4))  # of the functions of the second order
+        by_w[range(4), range(4)] = 4 * w - 1
+        for node, (i, j) in enumerate(edges, 4):
+            by_w[node, [i, j]] = 4 * w[j], 4 * w[i]
+        J = numpy.einsum("nad,av->ndv", own, by_w)
+        is_wrong |= numpy.linalg.det(J[:, :, 1:] - J[:, :, :1]) <= 1e-3 * numpy.abs(numpy.linalg.det((own[:, 1:4] - own[:, :1]).transpose(0, 2, 1)))
+    return is_wrong.sum()
 
 
 def _write(filename, solid, groups):
@@ -275,7 +299,17 @@ def _mesh(files, options):
               bone: {"contact": contact, "held": _at_ends(bone, contact, options["--bone-held"], "--bone-held")}}
     expect(bool(options["--out"]), "--out", options["--out"], "what the names of the files begin with")
     size = _number("--size", options["--size"] or math.sqrt(sum(gmsh.model.occ.getMass(2, face) for face in contact) / 40))
-    _fill(implant, bone, contact, size, _number("--edge-size", options["--edge-size"] or size))
+    for _ in range(5):
+        fields = _fill(implant, bone, contact, size, _number("--edge-size", options["--edge-size"] or size))
+        if not _n_tangled():
+            break
+        say(f"with cells of {_mm(size)} mm curved sides tangle some: again with smaller ones")
+        size *= 0.85
+        gmsh.model.mesh.clear()
+        for tag in fields:
+            gmsh.model.mesh.field.remove(tag)
+    else:
+        raise InputError("mesh: curved sides tangle cells of all sizes tried: expected a smaller --size, or a file without slivers")
     name = options["--out"]
     for solid, body in ((implant, "implant"), (bone, "bone")):
         angle, cells = _smallest_angle(solid)

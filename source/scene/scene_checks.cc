@@ -19,7 +19,7 @@ namespace Debond
     check_faces(const BodyParameters &bone, const BodyParameters &implant)
     {
       for (unsigned int d = 0; d < 2; ++d)
-        if (implant.width(d) > bone.width(d))
+        if (implant.width(d) > (1. + 1e-9) * bone.width(d))
           throw EntryError("Implant / " + implant.shape_row().entries.front(),
                            "the implant is " + to_text(implant.width(d)) +
                              " mm wide in " + "xy"[d] +

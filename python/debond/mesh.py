@@ -37,8 +37,7 @@ end
 subsection Interface
   # set Normal stiffness              = <<< MPa/mm
   set Tangential stiffness          = auto   # as the normal one
-  # A bond under no pressure holds in tension only with these, see prm/cad/post_pulled.prm; a press fit has an Interference.
-  # set Law = adhesive
+  # A bond under no pressure holds with Law = adhesive only, see prm/cad/post_pulled.prm; a press fit has an Interference.
   # set Friction coefficient broken   = <<<
   # set Friction coefficient unbroken = <<<
   # set Characteristic slip distance  = <<< mm
@@ -199,27 +198,28 @@ def _fill(implant, bone, contact, size, edge_size):
     return [9, *sizes, *(tag - 1 for tag in sizes)]
 
 
-def _smallest_angle(solid):
-    """Between two faces of a tetrahedron of a body, at its vertices [deg]; and how many there are."""
+def _tetrahedra(solid=-1):
+    """Nodes of those of a body, or of both (n, 10, 3) [mm]."""
     nodes, x, _ = gmsh.model.mesh.getNodes()
     place = numpy.zeros((int(max(nodes)) + 1, 3))
     place[nodes.astype(int)] = x.reshape(-1, 3)
-    own = gmsh.model.mesh.getElementsByType(TETRAHEDRON_10, solid)[1].reshape(-1, 10)[:, :4]
-    corners, smallest = place[own.astype(int)], 180.0
+    return place[gmsh.model.mesh.getElementsByType(TETRAHEDRON_10, solid)[1].reshape(-1, 10).astype(int)]
+
+
+def _smallest_angle(solid):
+    """Between two faces of a tetrahedron of a body, at its vertices [deg]; and how many there are."""
+    corners, smallest = _tetrahedra(solid), 180.0
     for i, j, k, m in ((0, 1, 2, 3), (0, 2, 1, 3), (0, 3, 1, 2), (1, 2, 0, 3), (1, 3, 0, 2), (2, 3, 0, 1)):
         edge = corners[:, j] - corners[:, i]
         a, b = (numpy.cross(edge, corners[:, n] - corners[:, i]) for n in (k, m))
         cosine = (a * b).sum(axis=1) / numpy.linalg.norm(a, axis=1) / numpy.linalg.norm(b, axis=1)
         smallest = min(smallest, math.degrees(math.acos(min(1.0, cosine.max()))))
-    return smallest, len(own)
+    return smallest, len(corners)
 
 
 def _n_tangled():
     """How many tetrahedra are inside out at one of the places that the corners of their hexahedra are at."""
-    nodes, x, _ = gmsh.model.mesh.getNodes()
-    place = numpy.zeros((int(max(nodes)) + 1, 3))
-    place[nodes.astype(int)] = x.reshape(-1, 3)
-    own = place[gmsh.model.mesh.getElementsByType(TETRAHEDRON_10)[1].reshape(-1, 10).astype(int)]
+    own = _tetrahedra()
     edges, is_wrong = ((0, 1), (1, 2), (2, 0), (3, 0), (3, 2), (3, 1)), numpy.zeros(len(own), dtype=bool)  # in the order of Gmsh
     for corners in range(1, 16):
         w = numpy.array([corners >> v & 1 for v in range(4)], dtype=float)
@@ -239,20 +239,16 @@ def _write(filename, solid, groups):
     gmsh.model.addPhysicalGroup(3, [solid])
     for name, faces in groups.items():
         gmsh.model.removePhysicalName(name)
-        if faces:
-            gmsh.model.setPhysicalName(2, gmsh.model.addPhysicalGroup(2, sorted(faces)), name)
+        gmsh.model.setPhysicalName(2, gmsh.model.addPhysicalGroup(2, sorted(faces)), name)
     gmsh.write(filename)
 
 
-def _triangles(faces):
-    """Corners (n, 3, 3) [mm]."""
-    result = []
-    for face in faces:
-        tags, x, _ = gmsh.model.mesh.getNodes(2, face, includeBoundary=True)
-        place = dict(zip(tags, x.reshape(-1, 3)))
-        own = gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[1].reshape(-1, 6)[:, :3]
-        result += [[place[node] for node in triangle] for triangle in own]
-    return numpy.array(result).reshape(-1, 3, 3)
+def _triangles(face):
+    """Corners of each (3, 3) [mm]."""
+    tags, x, _ = gmsh.model.mesh.getNodes(2, face, includeBoundary=True)
+    place = dict(zip(tags, x.reshape(-1, 3)))
+    own = gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[1].reshape(-1, 6)[:, :3]
+    return [numpy.array([place[node] for node in triangle]) for triangle in own]
 
 
 def _picture(bodies):
@@ -263,8 +259,7 @@ def _picture(bodies):
         parts = []
         for face in _faces(solid):
             kind = next((name for name, faces in groups.items() if face in faces), "free")
-            triangles = _triangles([face])
-            parts += [(kind.split()[0] if kind.split()[0] in COLOURS else "held", one) for one in triangles]
+            parts += [(kind, one) for one in _triangles(face)]
         middle = numpy.mean([one.mean(axis=0) for _, one in parts], axis=0)
         if is_cut:
             parts = [(kind, one) for kind, one in parts if (one.mean(axis=0) - middle) @ [0.5, 0.866, 0] > 0]

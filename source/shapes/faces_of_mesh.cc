@@ -48,8 +48,6 @@ namespace Debond
 
   namespace
   {
-    using FaceWeights = Eigen::Matrix<double, 9, 1>;
-
     /** Edges among the 3 x 3 nodes of a face. */
     constexpr int edges[][3] = {{0, 1, 2}, {6, 7, 8}, {0, 3, 6}, {2, 5, 8}};
 
@@ -72,25 +70,6 @@ namespace Debond
         }
       w[4] = std::sqrt(w[1] * w[7] * w[3] * w[5]);
       return w;
-    }
-
-
-
-    /** Of values at the 3 x 3 nodes of a face the control points with the
-     *  weights @p w: first of its edges, whose ends have the weight 1. */
-    void
-    interpolate(Eigen::Matrix3Xd &x, const FaceWeights &w)
-    {
-      for (const auto &[first, middle, last] : edges)
-        x.col(middle) = ((1. + w[middle]) * x.col(middle) -
-                         0.5 * (x.col(first) + x.col(last))) /
-                        w[middle];
-      FaceWeights bernstein;
-      bernstein << 1., 2., 1., 2., 4., 2., 1., 2., 1.;
-      FaceWeights  rest = bernstein.cwiseProduct(w);
-      const double all = rest.sum(), own = rest[4];
-      rest[4]  = 0.;
-      x.col(4) = (all * x.col(4) - x * rest) / own;
     }
 
 
@@ -138,6 +117,23 @@ namespace Debond
       x.col(4) = centre + R / w[4] * h.col(4).head<3>();
     }
   } // namespace
+
+
+
+  void
+  interpolate_nodes(Eigen::Matrix3Xd &x, const FaceWeights &w)
+  {
+    for (const auto &[first, middle, last] : edges)
+      x.col(middle) = ((1. + w[middle]) * x.col(middle) -
+                       0.5 * (x.col(first) + x.col(last))) /
+                      w[middle];
+    FaceWeights bernstein;
+    bernstein << 1., 2., 1., 2., 4., 2., 1., 2., 1.;
+    FaceWeights  rest = bernstein.cwiseProduct(w);
+    const double all = rest.sum(), own = rest[4];
+    rest[4]  = 0.;
+    x.col(4) = (all * x.col(4) - x * rest) / own;
+  }
 
 
 
@@ -191,7 +187,7 @@ namespace Debond
           {
             if (mesh.has_arcs)
               w = weights_of(x);
-            interpolate(x, w);
+            interpolate_nodes(x, w);
             if (mesh.sphere_radius > 0.)
               fit_to_sphere(x, w, mesh);
           }

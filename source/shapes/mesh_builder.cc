@@ -96,8 +96,8 @@ namespace Debond
           refuse("the hexahedron " + at_place(x[26]) +
                  " is tangled or flat (the determinant of the Jacobian changes "
                  "its sign)");
-        mesh->has_cells_of_corners =
-          mesh->has_cells_of_corners && !is_tangled(without_middles(x));
+        if (mesh->order == 2 && mesh->has_cells_of_corners)
+          mesh->has_cells_of_corners = !is_tangled(without_middles(x));
       }
   }
 

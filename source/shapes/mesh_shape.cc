@@ -117,9 +117,9 @@ namespace Debond
         // where a file is curved, trilinear cells have the same edges
         if (is_of_file)
           face.cut_at_edges(largest_smooth_angle,
-                            contact_surface_of(*body.mesh,
-                                               body.mesh->order,
-                                               side));
+                            face.degree() < body.mesh->order ?
+                              contact_surface_of(*body.mesh, 2, side) :
+                              face);
         return face;
       }
     const NurbsSurface face = body.shape_row().contact_face(body);

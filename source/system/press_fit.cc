@@ -1,6 +1,7 @@
 #include <debond/geometry/surface_geometry.h>
 #include <debond/interface/interface_parameters.h>
 #include <debond/shapes/body_parameters.h>
+#include <debond/shapes/faces_of_mesh.h>
 #include <debond/system/press_fit.h>
 
 #include <Eigen/Dense>
@@ -18,20 +19,15 @@ namespace Debond
       ControlNet result = nodes;
       if (face.degree() == 1)
         return result;
-      Eigen::Matrix3d along; // from values of a parabola to those of its net
-      along << 1., 0., 0., -0.5, 2., -0.5, 0., 0., 1.;
       for (unsigned int element = 0; element < face.n_elements(); ++element)
         {
-          const auto points = face.element_control_points(element);
-          for (unsigned int d = 0; d < 3; ++d)
-            {
-              Eigen::Matrix3d v;
-              for (unsigned int k = 0; k < 9; ++k)
-                v(k % 3, k / 3) = nodes(d, points[k]);
-              v = along * v * along.transpose();
-              for (unsigned int k = 0; k < 9; ++k)
-                result(d, points[k]) = v(k % 3, k / 3);
-            }
+          const auto       points = face.element_control_points(element);
+          Eigen::Matrix3Xd v(3, 9);
+          for (unsigned int k = 0; k < 9; ++k)
+            v.col(k) = nodes.col(points[k]);
+          interpolate_nodes(v);
+          for (unsigned int k = 0; k < 9; ++k)
+            result.col(points[k]) = v.col(k);
         }
       return result;
     }

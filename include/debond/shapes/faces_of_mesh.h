@@ -46,6 +46,15 @@ namespace Debond
   cells_at_contact_face(const dealii::Triangulation<3> &triangulation,
                         FacesOfMesh which = FacesOfMesh::contact);
 
+  using FaceWeights = Eigen::Matrix<double, 9, 1>;
+
+  /** Of values at the 3 x 3 nodes of a face makes those of the control points
+   *  with the weights @p w: first of its edges, whose ends have the weight 1.
+   */
+  void
+  interpolate_nodes(Eigen::Matrix3Xd  &x,
+                    const FaceWeights &w = FaceWeights::Ones());
+
   /** The contact face of a body from a file, or others: a patch for each face
    *  of its cells, of degree 1 (bilinear) or 2, which passes through the four
    * or nine nodes of the face. */

@@ -1,7 +1,7 @@
 """Meshes and a scene from CAD: python3 -m debond mesh IMPLANT.step [BONE.step] --size 0.5 --out NAME.
 
 Faces that both bodies have become `contact`, and are cut alike on both sides. Gmsh reads the STEP files, in mm whatever their
-unit, and fills the bodies with tetrahedra of ten nodes, which debond cuts into hexahedra."""
+unit, and fills the bodies with tetrahedra of ten nodes."""
 
 import math
 import os
@@ -60,6 +60,16 @@ end
 subsection Output
   set Directory = {name}_results
 end
+{expert}"""
+EXPERT = """
+subsection Expert    # meshes for the estimate of the error
+  subsection Bone
+    set Coarser mesh file = {name}_bone_coarser.msh
+  end
+  subsection Implant
+    set Coarser mesh file = {name}_implant_coarser.msh
+  end
+end
 """
 
 
@@ -110,7 +120,8 @@ def _block(text, implant, depth):
     sizes, (low, high) = [_number("--bone", part) for part in text.split("x")], _box(3, implant)
     expect(len(sizes) in (2, 3), "--bone", text, "AxBxC of a block or DxC of a cylinder, in mm")
     (x, y), top = ((low + high) / 2)[:2], low[2] + _number("--depth", depth) if depth else high[2]
-    if min(sizes[0] / (high - low)[0], sizes[len(sizes) - 2] / (high - low)[1], sizes[-1] / (top - low[2])) <= 1:
+    through = (1 + 1e-6) * sizes[-1] / (top - low[2])  # a hole may go through
+    if min(sizes[0] / (high - low)[0], sizes[len(sizes) - 2] / (high - low)[1], through) <= 1:
         raise InputError(f"--bone {text}: expected more than the implant takes, {' x '.join(map(_mm, (*(high - low)[:2], top - low[2])))} mm")
     if len(sizes) == 3:
         return gmsh.model.occ.addBox(x - sizes[0] / 2, y - sizes[1] / 2, top - sizes[2], *sizes)
@@ -171,31 +182,45 @@ def _sharp_edges(faces):
     return sharp
 
 
-def _fill(implant, bone, contact, size, edge_size):
-    """Tetrahedra of ten nodes, twice as large as the hexahedra that they are cut into, whose edges are `size` long at the contact
-    faces, `edge_size` along edges of these, and larger far away [mm]. Returns the fields of sizes."""
-    field, sizes, sharp = gmsh.model.mesh.field, [], _sharp_edges(contact)
-    for number, (what, tags, least) in enumerate((("FacesList", contact, 2 * size), ("EdgesList", sharp, 2 * edge_size))):
+def _fields(contact):
+    """Distances from contact faces and from their edges, and sizes of cells by these: the tags of those."""
+    field, sizes = gmsh.model.mesh.field, []
+    for what, tags in (("FacesList", contact), ("EdgesList", _sharp_edges(contact))):
         if tags:
-            field.add("Distance", 2 * number + 1)
-            field.setNumbers(2 * number + 1, what, sorted(tags))
-            field.setNumber(2 * number + 1, "NNodesByEdge", 100)
-            field.add("Threshold", 2 * number + 2)
-            for name, value in (("IField", 2 * number + 1), ("LcMin", least), ("LcMax", 8 * size), ("DistMin", 0.5 * least), ("DistMax", 10 * size)):
-                field.setNumber(2 * number + 2, name, value)
-            sizes.append(2 * number + 2)
-    field.add("Min", 9)
-    field.setNumbers(9, "FieldsList", sizes)
-    field.setAsBackgroundMesh(9)
+            distance, size = field.add("Distance"), field.add("Threshold")
+            field.setNumbers(distance, what, sorted(tags))
+            field.setNumber(distance, "NNodesByEdge", 100)
+            field.setNumber(size, "IField", distance)
+            sizes.append(size)
+    least = field.add("Min")
+    field.setNumbers(least, "FieldsList", sizes)
+    field.setAsBackgroundMesh(least)
+    return sizes
+
+
+def _fill(implant, bone, fields, size, edge_size):
+    """Tetrahedra of ten nodes, whose edges are `size` long at the contact faces, `edge_size` along edges of these, and up to three
+    times that far away [mm]."""
+    gmsh.model.mesh.clear()
+    for tag, least in zip(fields, (size, edge_size)):
+        for name, value in (("LcMin", least), ("LcMax", 3 * size), ("DistMin", 0.5 * least), ("DistMax", 8 * size)):
+            gmsh.model.mesh.field.setNumber(tag, name, value)
     for name, value in (("MeshSizeExtendFromBoundary", 0), ("MeshSizeFromPoints", 0), ("MeshSizeFromCurvature", 0), ("ElementOrder", 2), ("HighOrderOptimize", 0)):
         gmsh.option.setNumber("Mesh." + name, value)
-    gmsh.model.removeEntities([(3, tag) for _, tag in gmsh.model.getEntities(3) if tag not in (implant, bone)], recursive=True)
     gmsh.model.mesh.generate(3)
     try:
         gmsh.model.mesh.optimize("HighOrder")
     except Exception:  # not as good as it wants, see _n_tangled
         pass
-    return [9, *sizes, *(tag - 1 for tag in sizes)]
+
+
+def _fill_untangled(implant, bone, fields, size, edge_size, factors=(1, 0.85, 0.72, 0.61, 0.52)):
+    """The same with smaller ones where curved sides tangle some; returns how much smaller, a factor, or None."""
+    for factor in factors:
+        _fill(implant, bone, fields, factor * size, factor * edge_size)
+        if not _n_tangled():
+            return factor
+    return None
 
 
 def _tetrahedra(solid=-1):
@@ -218,7 +243,7 @@ def _smallest_angle(solid):
 
 
 def _n_tangled():
-    """How many tetrahedra are inside out at one of the places that the corners of their hexahedra are at."""
+    """How many tetrahedra are inside out at a vertex or in the middle of edges, faces or themselves."""
     own = _tetrahedra()
     edges, is_wrong = ((0, 1), (1, 2), (2, 0), (3, 0), (3, 2), (3, 1)), numpy.zeros(len(own), dtype=bool)  # in the order of Gmsh
     for corners in range(1, 16):
@@ -294,30 +319,33 @@ def _mesh(files, options):
               bone: {"contact": contact, "held": _at_ends(bone, contact, options["--bone-held"], "--bone-held")}}
     expect(bool(options["--out"]), "--out", options["--out"], "what the names of the files begin with")
     size = _number("--size", options["--size"] or math.sqrt(sum(gmsh.model.occ.getMass(2, face) for face in contact) / 40))
-    for _ in range(5):
-        fields = _fill(implant, bone, contact, size, _number("--edge-size", options["--edge-size"] or size))
-        if not _n_tangled():
-            break
-        say(f"with cells of {_mm(size)} mm curved sides tangle some: again with smaller ones")
-        size *= 0.85
-        gmsh.model.mesh.clear()
-        for tag in fields:
-            gmsh.model.mesh.field.remove(tag)
-    else:
+    edge_size, name = _number("--edge-size", options["--edge-size"] or size), options["--out"]
+    gmsh.model.removeEntities([(3, tag) for _, tag in gmsh.model.getEntities(3) if tag not in (implant, bone)], recursive=True)
+    fields = _fields(contact)
+    factor = _fill_untangled(implant, bone, fields, size, edge_size)
+    if factor is None:
         raise InputError("mesh: curved sides tangle cells of all sizes tried: expected a smaller --size, or a file without slivers")
-    name = options["--out"]
-    for solid, body in ((implant, "implant"), (bone, "bone")):
+    if factor < 1:
+        say(f"with cells of {_mm(size)} mm curved sides tangle some: they are {_mm(factor * size)} mm")
+    bodies = ((implant, "implant"), (bone, "bone"))
+    for solid, body in bodies:
         angle, cells = _smallest_angle(solid)
         areas = ", ".join(f"{kind} {_mm(sum(gmsh.model.occ.getMass(2, face) for face in faces))} mm^2" for kind, faces in groups[solid].items())
-        say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra, {4 * cells} cells, smallest angle {angle:.0f} degrees")
+        say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra, smallest angle {angle:.0f} degrees")
         _write(f"{name}_{body}.msh", solid, groups[solid])
-    unknowns = 72 * sum(len(gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[0]) for face in contact)  # 3 of each of 2 x 12 nodes
+    unknowns = 12 * sum(len(gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[0]) for face in contact)  # 3 of each of 2 x 2 nodes
     if unknowns > 10000:
         say(f"warning: the contact faces have some {unknowns} unknowns, and time grows with their third power (6000 take a minute): "
             "take a larger --size")
     write_whole(name + ".svg", _picture([(implant, groups[implant], False), (bone, groups[bone], True)]))
+    has_coarser = _fill_untangled(implant, bone, fields, 1.5 * factor * size, 1.5 * factor * edge_size, (1, 0.9))
+    for solid, body in bodies if has_coarser else ():
+        _write(f"{name}_{body}_coarser.msh", solid, groups[solid])
     command = f"python3 -m debond mesh {' '.join(files)}" + "".join(f" {word} {value}" for word, value in options.items() if value)
-    write_whole(name + ".prm", SCENE.format(title=f"{os.path.basename(files[0])} in bone", sources=" and ".join(files), command=command, name=name))
+    write_whole(name + ".prm", SCENE.format(title=f"{os.path.basename(files[0])} in bone", sources=" and ".join(files), command=command, name=name,
+                                             expert=EXPERT.format(name=name) if has_coarser else ""))
+    if not has_coarser:
+        say("warning: cells 1.5 times as long would be tangled: the error cannot be estimated well, compare two sizes")
     say(f"{name}_implant.msh, {name}_bone.msh, {name}.prm and {name}.svg written: fill in what is missing in {name}.prm")
 
 

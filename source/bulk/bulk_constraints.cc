@@ -1,4 +1,5 @@
 #include <debond/bulk/bulk_space.h>
+#include <debond/geometry/quadratic_simplex.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
@@ -86,13 +87,17 @@ namespace Debond
   {
     for (const auto &cell : dofs.active_cell_iterators())
       {
-        if (!cell->at_boundary())
-          continue;
         const Cell &info = bulk_cells[cell->active_cell_index()];
         for (const unsigned int f : cell->face_indices())
           for (const auto &[id, components] : supports)
             if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
               hold(info, f, components);
+      }
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        const Cell &info = bulk_cells[cell->active_cell_index()];
+        if (has_tetrahedra())
+          tie_middles(info);
         if (!info.enriched)
           continue;
         const auto nodes = nodes_of_fe(cell);
@@ -102,6 +107,31 @@ namespace Debond
         for (auto other = first; other != end; ++other)
           tie(other->second.first, other->second.second, nodes);
       }
+  }
+
+
+
+  // Corners of parts that are no nodes of the tetrahedron.
+  void
+  BulkSpace::tie_middles(const Cell &cell)
+  {
+    const auto L = barycentric_corners<3>(cell.first_corner);
+    for (unsigned int v = 0; v < 8; ++v)
+      if (const unsigned int node = cell.vertices[v];
+          (L.col(v).array() > 0.).count() > 2 && !tied[node])
+        {
+          tied[node]   = true;
+          const auto N = quadratic_functions(L.col(v).eval());
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              follow.add_line(3 * node + c);
+              for (unsigned int a = 0; a < N.rows(); ++a)
+                if (N(a, 0) != 0.)
+                  follow.add_entry(3 * node + c,
+                                   3 * cell.nodes[a] + c,
+                                   N(a, 0));
+            }
+        }
   }
 
 

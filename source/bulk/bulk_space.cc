@@ -62,7 +62,10 @@ namespace Debond
         n_nodes_of_fe = dofs.n_dofs() / 3;
         find_cells();
         place_nodes();
-        number_nodes_of_cells();
+        if (has_tetrahedra())
+          number_nodes_of_tetrahedra();
+        else
+          number_nodes_of_cells();
       }
     const ControlNet &control_points = contact_surface.control_points();
     for (unsigned int A = 0; A < control_points.cols(); ++A)
@@ -289,13 +292,51 @@ namespace Debond
 
 
 
+  // Nodes on the contact face are control points themselves.
+  void
+  BulkSpace::number_nodes_of_tetrahedra()
+  {
+    const BodyMesh           &mesh = *body_parameters.mesh;
+    constexpr unsigned int    none = -1;
+    std::vector<unsigned int> node(triangulation.n_vertices(), none);
+    unsigned int              element = 0;
+    for (const auto &[cell, number] : cells_at_contact_face(triangulation))
+      {
+        const auto vertices =
+          mesh
+            .part_of_simplex(
+              vertices_of_face(cell, ContactFace::of(number, body_side)))
+            .nodes;
+        const auto nodes = nodes_of_element(element++);
+        for (unsigned int k = 0; k < vertices.size(); ++k)
+          node[vertices[k]] = nodes[k];
+      }
+    for (const auto &cell : dofs.active_cell_iterators())
+      for (const unsigned int v : cell->vertex_indices())
+        if (unsigned int &own = node[cell->vertex_index(v)]; own == none)
+          own = cell->vertex_dof_index(v, 0) / 3;
+    for (const auto &cell : dofs.active_cell_iterators())
+      {
+        std::vector<unsigned int> corners;
+        for (const unsigned int v : cell->vertex_indices())
+          corners.push_back(cell->vertex_index(v));
+        const auto part   = mesh.part_of_simplex(corners);
+        Cell      &info   = bulk_cells[cell->active_cell_index()];
+        info.first_corner = part.first_corner;
+        for (const unsigned int vertex : part.nodes)
+          info.nodes.push_back(node[vertex]);
+      }
+  }
+
+
+
   std::vector<unsigned int>
   BulkSpace::nodes_of_element(const unsigned int element) const
   {
     const auto control_points = contact_surface.element_control_points(element);
-    const unsigned int        n = contact_surface.degree() + 1;
     std::vector<unsigned int> nodes;
-    for (unsigned int a = 0; a < n * n; ++a)
+    for (unsigned int a = 0; a < contact_surface.n_control_points_of_element();
+         ++a)
       nodes.push_back(control_point_node(control_points[a]));
     return nodes;
   }

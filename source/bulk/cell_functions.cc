@@ -1,4 +1,5 @@
 #include <debond/bulk/bulk_space.h>
+#include <debond/geometry/quadratic_simplex.h>
 
 #include <array>
 #include <cmath>
@@ -37,6 +38,8 @@ namespace Debond
   {
     if (space.has_splines())
       extract_splines();
+    else if (space.has_tetrahedra())
+      E = barycentric_corners<3>(cell.first_corner).transpose();
     else if (cell.enriched)
       for (unsigned int a = 0; a < space.element().n_dofs_per_cell(); ++a)
         on_face[a] = space.element().has_support_on_face(a, cell.face.number);
@@ -55,9 +58,12 @@ namespace Debond
   ShapeValues
   CellFunctions::at(const dealii::Point<3> &point, const ShapeValues &phi) const
   {
-    return space.has_splines() ? splines(phi) :
-           cell.enriched       ? of_contact_layer(point, phi) :
-                                 phi;
+    if (space.has_splines())
+      return splines(phi);
+    if (space.has_tetrahedra())
+      return quadratic_functions(
+        Eigen::Matrix4d(E.transpose().lazyProduct(phi)));
+    return cell.enriched ? of_contact_layer(point, phi) : phi;
   }
 
 

@@ -40,11 +40,11 @@ namespace Debond
     , bulk_material(material)
     // nine control points of a patch that shares its border only have motions
     // that two points along an edge do not see
-    , line(
-        (mesh.degree() == 2 && !mesh.has_splines()) ||
-            (mesh.surface().degree() == 2 && !mesh.surface().is_one_patch()) ?
-          3 :
-          2)
+    , line((mesh.degree() == 2 && !mesh.has_splines()) ||
+               (mesh.surface().degree() == 2 &&
+                !mesh.surface().is_one_patch() && !mesh.has_tetrahedra()) ?
+             3 :
+             2)
     , quadrature(line.size())
   {
     const BodyParameters    &body = mesh.parameters();

@@ -77,6 +77,29 @@ namespace Debond
             }
         }
     }
+
+
+
+    /** Makes functions of a triangle of those of its part. */
+    template <class Basis>
+    void
+    extract(const Eigen::Matrix<double, 6, 9> &E, Basis &basis)
+    {
+      const auto combine = [&E](auto &N) {
+        Eigen::Map<Eigen::Matrix<double, 6, 1>>(N.data()) =
+          (E * Eigen::Map<Eigen::Matrix<double, 9, 1>>(N.data())).eval();
+      };
+      combine(basis.N);
+      combine(basis.N_1);
+      combine(basis.N_2);
+      if constexpr (std::is_same_v<Basis, CurvedBasis>)
+        {
+          combine(basis.N_11);
+          combine(basis.N_12);
+          combine(basis.N_22);
+        }
+      basis.size = E.rows();
+    }
   } // namespace
 
 
@@ -203,6 +226,8 @@ namespace Debond
     (degree() == 2 ?
        fill_basis<2, Basis> :
        fill_basis<1, Basis>)(splines(0), splines(1), weights, basis);
+    if (has_triangles())
+      extract(extraction[faces[element].first_corner], basis);
   }
 
   template void

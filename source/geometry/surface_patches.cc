@@ -1,3 +1,4 @@
+#include <debond/geometry/quadratic_simplex.h>
 #include <debond/geometry/surface_geometry.h>
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -46,6 +47,47 @@ namespace Debond
     patch_knots = {knot_vectors};
     faces_at.resize(n_control_points());
     find_neighbours();
+  }
+
+
+
+  // Bezier extraction: what interpolates the functions at 3 x 3 points.
+  void
+  NurbsSurface::use_triangles(
+    const std::vector<std::array<unsigned int, 6>> &nodes,
+    const std::vector<unsigned int>                &first,
+    const ControlNet                               &places)
+  {
+    assert(degree() == 2 && !is_one_patch() && nodes.size() == faces.size());
+    for (unsigned int f = 0; f < faces.size(); ++f)
+      {
+        faces[f].control_points.assign(nodes[f].begin(), nodes[f].end());
+        faces[f].first_corner = first[f];
+      }
+    points = places;
+    weight.assign(places.cols(), 1.);
+    Eigen::Matrix3d of_line; // polynomials by values
+    of_line << 1., 0., 0., -0.5, 2., -0.5, 0., 0., 1.;
+    for (const unsigned int corner : {0, 1, 2, 3})
+      {
+        const auto                  L = barycentric_corners<2>(corner);
+        Eigen::Matrix<double, 6, 9> values;
+        for (unsigned int k = 0; k < 9; ++k)
+          {
+            const double          s = 0.5 * (k % 3), t = 0.5 * (k / 3);
+            const Eigen::Vector4d bilinear((1. - s) * (1. - t),
+                                           s * (1. - t),
+                                           (1. - s) * t,
+                                           s * t);
+            values.col(k) = quadratic_functions((L * bilinear).eval());
+          }
+        for (auto row : values.rowwise())
+          {
+            const Eigen::Matrix3d at = row.reshaped(3, 3);
+            row = (of_line * at * of_line.transpose()).reshaped().transpose();
+          }
+        extraction.push_back(values);
+      }
   }
 
 

@@ -598,8 +598,13 @@ namespace Debond
         // back to it when it closes again somewhere else: the gap to the old
         // xi_hat would be a spring stretched over the distance that the
         // surfaces have moved while apart.
+        const bool has_left = trial.path_to_edge > 0.;
+        point.enters_at     = 0.;
         if (point.accepted.status == PointStatus::open)
-          project_accepted(point, configuration, true);
+          if (const Projection beside =
+                project_accepted(point, configuration, true);
+              has_left && beside.faces)
+            point.enters_at = std::min(0., beside.height);
       }
     accept_shares(configuration);
     follow_pattern();

@@ -183,11 +183,11 @@ namespace Debond
 
 
 
-  // Out of the slave at a point, a unit vector. A face with edges is of several pieces,
-  // and the nearest is often none that the point presses against: beside the
-  // edge of a post's flat end the wall of its hole is nearer than the bottom
-  // once the post has moved. Pieces that face the point are asked only, with
-  // normals more than 120 degrees apart.
+  // Out of the slave at a point, a unit vector. A face with edges is of several
+  // pieces, and the nearest is often none that the point presses against:
+  // beside the edge of a post's flat end the wall of its hole is nearer than
+  // the bottom once the post has moved. Pieces that face the point are asked
+  // only, with normals more than 120 degrees apart.
   Eigen::Vector3d
   ContactInterface::normal_of_slave(const SlavePoint &point,
                                     const ControlNet &positions) const

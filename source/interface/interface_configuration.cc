@@ -47,7 +47,7 @@ namespace Debond
                       const std::vector<bool> &elements)
     {
       std::vector<bool>  result(surface.n_control_points(), false);
-      const unsigned int n = (surface.degree() + 1) * (surface.degree() + 1);
+      const unsigned int n = surface.n_control_points_of_element();
       for (unsigned int element = 0; element < elements.size(); ++element)
         for (unsigned int a = 0; elements[element] && a < n; ++a)
           result[surface.element_control_points(element)[a]] = true;

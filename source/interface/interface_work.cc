@@ -192,6 +192,12 @@ namespace Debond
     // shrink.
     const PointStart start  = point.begin(law, mode);
     PointWork        by_law = law.work(start, trial.normal_gap, slid);
+    // Over an edge, to a piece that it is below: what is stored there at once
+    // is a part of what was lost as it left. In the step between it is open,
+    // and nothing is stored.
+    if (point.enters_at < 0.)
+      for (double *work : {&dissipation, &friction})
+        *work -= point.JxW * law.respond(start, point.enters_at, 0.).energy;
     // A bond that wears as the bone slides may fall from above tau_b to below
     // it within the step: what its law would have taken beyond the bone has not
     // let through.
@@ -311,6 +317,36 @@ namespace Debond
             interpolate(point.basis, configuration.side[slave].positions) -
               geometry.y,
             chuck.over_master(interpolate(point.basis, before), slave)};
+  }
+
+
+
+  // What they carried in the accepted state, in the directions that tangent
+  // and normal have taken with the master since.
+  ControlNet
+  ContactInterface::let_go(const InterfaceConfiguration &configuration) const
+  {
+    NodalSums              sums   = zero_sums(configuration);
+    const MasterSurface    at_end = master(configuration);
+    const Eigen::Matrix3d &Q      = configuration.side[master_side()].frame;
+    for (const SlavePoint &point : points)
+      if (point.trial.path_to_edge > 0. &&
+          point.trial.state.status == PointStatus::open)
+        {
+          SurfaceGeometry geometry;
+          contract(point.trial.old_basis, *at_end.positions, geometry);
+          const double pressure = law.joint
+                                    ->respond(point.begin(*law.joint, mode_now),
+                                              point.accepted.normal_gap,
+                                              0.)
+                                    .pressure;
+          add_force(point,
+                    Q * point.accepted_traction -
+                      pressure * MasterNormal(geometry, at_end.outward_sign).n,
+                    point.trial.old_basis,
+                    sums);
+        }
+    return sums[Side::implant];
   }
 
 

@@ -337,8 +337,7 @@ namespace Debond
 
   // Where faces meet at an angle tangents jump, and the equations may have no
   // solution: each side leads to the other one. Then the ridge holds xi_hat,
-  // and what is left to solve is along it. The equations across are missed by
-  // the gap along the normal times the angle, a small part of the elastic gap.
+  // and what is left to solve is along it, and how far the normal has turned.
   SlipOutcome
   SlipProblem::solve_with_ridges(const Vector2d &start)
   {
@@ -384,11 +383,89 @@ namespace Debond
         const auto end = surface.end_of_surface(now.element, now.xi);
         if ((here.beyond[0] && end[0] != 0) || (here.beyond[1] && end[1] != 0))
           return SlipOutcome::left_patch;
+        // at a corner the equations are missed by the gap along the normal
+        // times the angle, a small part of the elastic gap
         held   = here.beyond;
         xi_hat = now.xi;
+        if (!turn_on_ridge(now))
+          evaluate_in(now);
         return SlipOutcome::solved;
       }
     return SlipOutcome::not_found;
+  }
+
+
+
+  // Of the one element beside, across the side and on from this one; zero at a
+  // corner, where there are several.
+  Vector3d
+  SlipProblem::tangent_beside(const NurbsSurface::Place &place,
+                              const bool                 is_last)
+  {
+    const auto beside = surface.places_beside(place.element, place.xi);
+    if (beside.size() != 1)
+      return Vector3d::Zero();
+    const auto &[element, xi] = beside[0];
+    const auto         box    = surface.element_bounds(element);
+    const unsigned int e      = xi[0] > box[0][0] && xi[0] < box[1][0] ? 1 : 0;
+    surface.evaluate_in_element(element, xi, basis);
+    contract(basis, *point.master.positions, geometry);
+    // where both parameters grow, or fall, towards the side: the other way
+    return ((xi[e] >= box[1][e]) == is_last ? -1. : 1.) *
+           (e == 0 ? geometry.a1 : geometry.a2);
+  }
+
+
+
+  // On a ridge the normal may be any between those of both sides: that of a
+  // fillet, so narrow that y does not move across it. Its tangent across the
+  // side, c_A + lambda (c_B - c_A), and xi_hat along it are what the equations
+  // are solved for. Without that the traction would jump from side to side, and
+  // between them bodies would find no equilibrium.
+  bool
+  SlipProblem::turn_on_ridge(NurbsSurface::Place place)
+  {
+    constexpr double narrow = 1e-12, negligible = 1e-10; // of lambda
+    // across the ridge and along it
+    const unsigned int d = held[0] ? 0 : 1, o = 1 - d;
+    const auto         box     = surface.element_bounds(place.element);
+    const bool         is_last = place.xi[d] >= box[1][d];
+    double             lambda  = 0.5; // of the way to the normal beside
+    for (unsigned int iteration = 0; iteration < 20; ++iteration)
+      {
+        // the surface here, with second derivatives as lambda turns it; these
+        // lead Newton's method for lambda and the place along the ridge
+        Vector3d c_B = tangent_beside(place, is_last);
+        if (c_B.isZero(0.))
+          return false; // a corner
+        surface.evaluate_in_element(place.element, place.xi, basis);
+        contract(basis, *point.master.positions, geometry);
+        Vector3d &a_d = d == 0 ? geometry.a1 : geometry.a2;
+        // as long, as parameters of faces are of different lengths
+        c_B *= a_d.norm() / c_B.norm();
+        (d == 0 ? geometry.a11 : geometry.a22) = narrow * (c_B - a_d);
+        // how that across changes along the ridge is that of this side: it is
+        // wanted for the convergence only
+        geometry.a12 *= narrow;
+        a_d = narrow * ((1. - lambda) * a_d + lambda * c_B);
+        // forces at control points are those of y, whatever lambda is
+        for (double &N : d == 0 ? basis.N_1 : basis.N_2)
+          N *= narrow;
+        equations.emplace(point, geometry);
+        by_xi.reset();
+        const Vector2d step = -along_surface().h.inverse() * equations->h;
+        if (std::abs(step[d]) < negligible && std::abs(step[o]) < 1e-13)
+          {
+            xi_hat = place.xi;
+            held   = {{false, false}};
+            fillet = narrow;
+            across = d;
+            return true;
+          }
+        lambda      = std::clamp(lambda + step[d], 0., 1.);
+        place.xi[o] = std::clamp(place.xi[o] + step[o], box[0][o], box[1][o]);
+      }
+    return false;
   }
 
 
@@ -412,6 +489,24 @@ namespace Debond
     xi = old;
     evaluate(xi);
     return false;
+  }
+
+
+
+  // Of dh/dxi_hat; what a ridge holds does not move.
+  Eigen::Matrix2d
+  SlipProblem::inverse_along_surface()
+  {
+    const Eigen::Matrix2d &by     = along_surface().h;
+    Eigen::Matrix2d        result = by.inverse();
+    for (unsigned int d = 0; d < 2; ++d)
+      if (held[d])
+        {
+          result.setZero();
+          if (!held[1 - d])
+            result(1 - d, 1 - d) = 1. / by(1 - d, 1 - d);
+        }
+    return result;
   }
 
 
@@ -457,6 +552,8 @@ namespace Debond
       surface.evaluate(xi_hat, result.basis);
     result.state.gap =
       e.normal.parts(tangential / point.law.tangential_penalty);
+    // in parts of the tangents of the surface, of which that across is wider
+    result.state.gap[across] *= fillet;
     point.carry(response,
                 e.normal.n + n_turns,
                 tangential,
@@ -467,17 +564,9 @@ namespace Debond
       e.resistance * response.rubbed * tangential.normalized();
     result.slip_increment =
       e.slip + geometry.a1 * last_step[0] + geometry.a2 * last_step[1];
-    const auto by_w = e.along_w();
-    // what a ridge holds does not move
-    Eigen::Matrix2d inverse = by_xi->h.inverse();
-    for (unsigned int d = 0; d < 2; ++d)
-      if (held[d])
-        {
-          inverse.setZero();
-          if (!held[1 - d])
-            inverse(1 - d, 1 - d) = 1. / by_xi->h(1 - d, 1 - d);
-        }
-    result.dxi = -inverse * by_w.h;
+    const auto            by_w    = e.along_w();
+    const Eigen::Matrix2d inverse = inverse_along_surface();
+    result.dxi                    = -inverse * by_w.h;
     const Eigen::Matrix<double, 4, W::size> total =
       by_w.traction_and_distance + by_xi->traction_and_distance * result.dxi;
     result.dt = total.topRows<3>();

@@ -414,6 +414,7 @@ namespace Debond
     if (scene.load_steps.draws_curve())
       {
         rates              = coupled_system.rates();
+        end.let_go         = coupled_system.let_go();
         end.force_rates    = rates.forces;
         end.position_rates = rates.position;
         const double times =

@@ -247,8 +247,8 @@ namespace Debond
      *  1.6, as they become smaller: half of it. Twice of it where they are of
      *  first order, at a rim or a modulus that cells do not follow, or
      *  trilinear; all of it where a bond ends across cells, and where one body
-     *  is of a file; a quarter where both are, as trilinear elements are far
-     *  worse than quadratic ones. */
+     *  is of a file, or both have coarser ones; a quarter where both are
+     *  trilinear elements of the same files, far worse than quadratic ones. */
     double
     share_left(const Scene &scene)
     {
@@ -266,6 +266,7 @@ namespace Debond
         return body.shape == BodyShape::file || body.is_rigid();
       };
       if (is_of_file(bone) && is_of_file(implant) &&
+          bone.coarser_mesh_file.empty() && implant.coarser_mesh_file.empty() &&
           (bone.shape == BodyShape::file || implant.shape == BodyShape::file))
         return 0.25;
       return scene.interface.bonding_of_law().pattern !=

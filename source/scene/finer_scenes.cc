@@ -107,11 +107,26 @@ namespace Debond
 
 
 
+    /** Whether there are other files of deformable bodies for that. */
+    bool
+    has_coarser_files(const Scene &scene)
+    {
+      bool result = false;
+      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+        if (!body->coarser_mesh_file.empty())
+          result = true;
+        else if (body->shape == BodyShape::file && !body->is_rigid())
+          return false;
+      return result;
+    }
+
+
+
     using Changes = std::map<std::string, std::string>;
 
-    // Cells of a file stay: with fewer of the other body its elements are
-    // trilinear. Where each element has a bond of its own, other cells would
-    // have another bond.
+    // Cells of a file stay: with fewer of the other body they are those of
+    // another file, or its elements are trilinear. Where each element has a
+    // bond of its own, other cells would have another bond.
     Changes
     changed_cells(const Scene &scene, const Change change)
     {
@@ -121,6 +136,12 @@ namespace Debond
         if (body->shape != BodyShape::file)
           changes[section + std::string(" / Cells")] =
             text_of(*body, cells_of(*body, change, scene.is_axisymmetric()));
+        else if (change == fewer_cells && has_coarser_files(scene))
+          {
+            if (!body->coarser_mesh_file.empty())
+              changes[section + std::string(" / Mesh file")] =
+                body->coarser_mesh_file;
+          }
         else if (change == fewer_cells && has_trilinear_cells(scene) &&
                  body->element == ElementKind::quadratic)
           changes[section + std::string(" / Element")] = "trilinear";
@@ -131,8 +152,11 @@ namespace Debond
       if (bonding.pattern == BondingPatternKind::file ||
           (bonding.pattern == BondingPatternKind::random &&
            bonding.correlation_length == 0.))
-        for (const std::string name :
-             {"Implant / Cells", "Implant / Element", "Bone / Element"})
+        for (const std::string name : {"Implant / Cells",
+                                       "Implant / Element",
+                                       "Bone / Element",
+                                       "Implant / Mesh file",
+                                       "Bone / Mesh file"})
           changes.erase(name);
       return changes;
     }

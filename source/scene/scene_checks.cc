@@ -251,6 +251,9 @@ namespace Debond
       std::vector<std::pair<std::string, std::string>> files{
         {scene.bone.mesh_file, "Bone / Mesh file"},
         {scene.implant.mesh_file, "Implant / Mesh file"},
+        {scene.bone.coarser_mesh_file, "Expert / Bone / Coarser mesh file"},
+        {scene.implant.coarser_mesh_file,
+         "Expert / Implant / Coarser mesh file"},
         {scene.bone.voxel_file, "Bone / Voxel file"},
         {scene.interface.bonding.file, "Interface / Bonding / File"}};
       for (unsigned int c = 0; c < ChuckParameters::n_components; ++c)

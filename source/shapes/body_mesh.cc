@@ -1,6 +1,7 @@
 #include <debond/shapes/body_mesh.h>
 #include <debond/shapes/mesh_formats.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Debond
@@ -16,6 +17,31 @@ namespace Debond
       {across,
        across,
        rounded(double(triangulation.n_active_cells()) / n_contact_faces)}};
+  }
+
+
+
+  BodyMesh::PartOfSimplex
+  BodyMesh::part_of_simplex(const std::vector<unsigned int> &corners) const
+  {
+    PartOfSimplex result;
+    while (ends[corners[result.first_corner]].size() > 1)
+      ++result.first_corner;
+    const unsigned int vertex_0 = corners[result.first_corner];
+    result.nodes                = {vertex_0};
+    for (unsigned int d = 1; d < corners.size(); d *= 2)
+      {
+        const auto &edge = ends[corners[result.first_corner ^ d]];
+        result.nodes.push_back(edge[0] == vertex_0 ? edge[1] : edge[0]);
+      }
+    for (unsigned int i = 0, n = result.nodes.size(); i < n; ++i)
+      for (unsigned int j = i + 1; j < n; ++j)
+        {
+          const auto [first, last] =
+            std::minmax(result.nodes[i], result.nodes[j]);
+          result.nodes.push_back(between.at({first, last}));
+        }
+    return result;
   }
 
 

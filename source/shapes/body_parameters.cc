@@ -278,18 +278,23 @@ namespace Debond
       },
       Allowed::choice(names),
       text);
+    const auto file =
+      Allowed::text("the name of a file of hexahedra or tetrahedra", false)
+        .or_word_for("none", "");
     table.add(
       "Mesh file",
       mesh_file,
-      Allowed::text("the name of a file of hexahedra or tetrahedra", false)
-        .or_word_for("none", ""),
+      file,
       "File with the hexahedra or tetrahedra of the body, for Shape = file: Gmsh "
       "(.msh) or Abaqus (.inp), relative to the working directory. Lengths are in mm, the contact face is near z = 0, "
       "the chuck on the z axis. Groups of faces have these names: "
-      "contact; held; slides x, slides y, slides z (held along x, y "
-      "or z only); axial (moves along z only). Other faces are free. "
-      "The contact face is bilinear, or of degree two with Element = "
-      "quadratic.");
+      "contact; held; slides x, slides y, slides z (held along it only); axial (moves along z only). Others are free.");
+    table.add(
+      "Expert / Coarser mesh file",
+      coarser_mesh_file,
+      file,
+      "The body with cells 1.5 times as long, for the estimate of the error. "
+      "`none': that by trilinear ones, of tetrahedra up to 10 times too large.");
   }
 
 
@@ -440,8 +445,8 @@ namespace Debond
       Allowed::choice("trilinear | quadratic | spline")
         .or_word_for("auto", "trilinear"),
       "Kind of cells. `auto': as Accuracy needs, without it trilinear. `trilinear': hexahedra with 8 nodes, whose side at the "
-      "contact face is a NURBS surface, as in the paper. `quadratic': the same "
-      "with 27 nodes. `spline': quadratic splines in all directions: smaller "
+      "contact face is a NURBS surface, as in the paper; a tetrahedron is four of them. `quadratic': the same "
+      "with 27 nodes, or tetrahedra with 10. `spline': quadratic splines in all directions: smaller "
       "error in the same time, especially with cells that follow the rim.");
     table.add(
       "Expert / Layer grading",

@@ -59,7 +59,7 @@ namespace Debond
           return vertices[0];
         std::sort(vertices.begin(), vertices.end());
         const auto [found, is_new] =
-          corners.emplace(vertices, mesh.nodes.size());
+          mesh.middles.emplace(vertices, mesh.nodes.size());
         if (is_new)
           mesh.nodes.push_back(x);
         return found->second;
@@ -133,13 +133,12 @@ namespace Debond
         return x;
       }
 
-      StoredMesh                                       &mesh;
-      std::map<std::vector<unsigned int>, unsigned int> corners;
-      const std::array<std::vector<Weights>, 4>         weights_of{
+      StoredMesh                               &mesh;
+      const std::array<std::vector<Weights>, 4> weights_of{
         {weights_in_hexahedron(0),
-                 weights_in_hexahedron(1),
-                 weights_in_hexahedron(2),
-                 weights_in_hexahedron(3)}};
+         weights_in_hexahedron(1),
+         weights_in_hexahedron(2),
+         weights_in_hexahedron(3)}};
     };
   } // namespace
 

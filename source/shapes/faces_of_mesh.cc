@@ -137,6 +137,57 @@ namespace Debond
 
 
 
+  std::vector<unsigned int>
+  vertices_of_face(const dealii::Triangulation<3>::active_cell_iterator &cell,
+                   const ContactFace                                    &face)
+  {
+    std::vector<unsigned int> result;
+    for (const unsigned int k : {0, 1, 2, 3})
+      {
+        const unsigned int c = face.number % 2 << face.across() |
+                               (k & 1) << face.axes[0] |
+                               (k >> 1) << face.axes[1];
+        result.push_back(cell->vertex_index(c));
+      }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /** The same surface as one of quadratic triangles. */
+    void
+    use_triangles(const BodyMesh   &mesh,
+                  const Side        side,
+                  const FacesOfMesh which,
+                  NurbsSurface     &surface)
+    {
+      std::map<unsigned int, unsigned int>     control_point_of;
+      std::vector<std::array<unsigned int, 6>> nodes;
+      std::vector<unsigned int>                first;
+      for (const auto &[cell, number] :
+           cells_at_contact_face(mesh.triangulation, which))
+        {
+          const auto part = mesh.part_of_simplex(
+            vertices_of_face(cell, ContactFace::of(number, side)));
+          first.push_back(part.first_corner);
+          nodes.emplace_back();
+          for (unsigned int k = 0; k < 6; ++k)
+            nodes.back()[k] =
+              control_point_of.emplace(part.nodes[k], control_point_of.size())
+                .first->second;
+        }
+      ControlNet places(3, control_point_of.size());
+      for (const auto &[vertex, A] : control_point_of)
+        for (unsigned int c = 0; c < 3; ++c)
+          places(c, A) = mesh.triangulation.get_vertices()[vertex][c];
+      surface.use_triangles(nodes, first, places);
+    }
+  } // namespace
+
+
+
   // Control points are the functions of FE_Q on the face: cells share them.
   NurbsSurface
   contact_surface_of(const BodyMesh    &mesh,
@@ -200,6 +251,9 @@ namespace Debond
           }
         faces.push_back(std::move(control_points));
       }
-    return NurbsSurface(degree, faces, net, weights);
+    NurbsSurface result(degree, faces, net, weights);
+    if (degree == 2 && mesh.has_tetrahedra())
+      use_triangles(mesh, side, which, result);
+    return result;
   }
 } // namespace Debond

@@ -28,6 +28,7 @@ namespace Debond
     find_faces();
     name_faces();
     check_pieces();
+    number_simplices();
     build();
     check_contact_face();
   }
@@ -136,6 +137,26 @@ namespace Debond
               }
             cells.back().vertices[c] = v;
           }
+      }
+  }
+
+
+
+  void
+  MeshBuilder::number_simplices()
+  {
+    if (stored.middles.empty())
+      return;
+    for (unsigned int v = 0; v < vertex_points.size(); ++v)
+      mesh->ends.push_back({v});
+    for (const auto &[nodes, middle] : stored.middles)
+      {
+        auto &own = mesh->ends[vertex[middle]];
+        own.clear();
+        for (const unsigned int node : nodes)
+          own.push_back(vertex[node]);
+        std::sort(own.begin(), own.end());
+        mesh->between[own] = vertex[middle];
       }
   }
 

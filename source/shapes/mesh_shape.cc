@@ -53,7 +53,7 @@ namespace Debond
              "the cells of a Mesh file",
              true,
              true,
-             {"Mesh file"},
+             {"Mesh file", "Coarser mesh file"},
              geometry_of_file,
              check_file,
              nullptr}};
@@ -83,6 +83,14 @@ namespace Debond
                                             why);
                        })
              .mesh;
+  }
+
+
+
+  bool
+  BodyParameters::has_tetrahedra() const
+  {
+    return element == ElementKind::quadratic && mesh && mesh->has_tetrahedra();
   }
 
 

@@ -115,11 +115,14 @@ namespace Debond
 
 
 
+  // A point leaves a face all at once, and what it stands for little by little:
+  // steps are not made small to see it do so. The curve goes on without the
+  // jump, see take().
   AdaptiveStepping::Node
   AdaptiveStepping::node_of(const StepState &state) const
   {
     return {state.time,
-            answers(state.forces, state.position),
+            answers(state.forces + state.let_go, state.position),
             answers(state.force_rates, state.position_rates)};
   }
 
@@ -351,7 +354,9 @@ namespace Debond
     bend         = is_resolved ? smooth / std::pow(taken, 4) : 0.;
     has_previous = last.rates.allFinite();
     current      = last;
-    time         = step.time;
+    for (Node *const node : {&previous, &current})
+      node->answers -= answers(state.let_go, Forces::Zero());
+    time = step.time;
     if (time == turn && time != end)
       {
         // as a new phase, but for the size of steps

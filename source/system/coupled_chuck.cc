@@ -40,9 +40,14 @@ namespace Debond
   Chuck::Vector6
   CoupledSystem::chuck_resultant() const
   {
-    return resultant(interface.force(Side::implant),
-                     configuration.side[Side::implant].positions.colwise() -
-                       chuck.centre());
+    return resultant(interface.force(Side::implant), arms_of_chuck());
+  }
+
+  ControlNet
+  CoupledSystem::arms_of_chuck() const
+  {
+    return configuration.side[Side::implant].positions.colwise() -
+           chuck.centre();
   }
 
 
@@ -57,8 +62,20 @@ namespace Debond
   Chuck::Vector6
   CoupledSystem::chuck_forces() const
   {
-    const Chuck::Vector6 total  = chuck_resultant();
-    Chuck::Vector6       result = total;
+    return in_components(chuck_resultant());
+  }
+
+  Chuck::Vector6
+  CoupledSystem::let_go() const
+  {
+    return in_components(
+      resultant(interface.let_go(configuration), arms_of_chuck()));
+  }
+
+  Chuck::Vector6
+  CoupledSystem::in_components(const Chuck::Vector6 &total) const
+  {
+    Chuck::Vector6 result = total;
     // The first three, forces along fixed axes, are the same.
     for (unsigned int k = 3; k < 6; ++k)
       result[k] = chuck.axis(k).dot(total.tail<3>());

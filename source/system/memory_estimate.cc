@@ -20,7 +20,9 @@ namespace Debond
   double
   n_unknowns_of(const BodyParameters &body)
   {
-    const auto   n       = body.lattice_of_cells();
+    const auto n = body.lattice_of_cells();
+    if (body.has_tetrahedra()) // 1.8 nodes each
+      return 3. * 1.8 / 4. * n[0] * n[1] * n[2];
     const double more    = body.contact_surface == SurfaceKind::nurbs ? 2. : 1.,
                  on_face = (n[0] + more) * (n[1] + more),
                  p       = body.element == ElementKind::quadratic ? 2. : 1.;
@@ -134,8 +136,13 @@ namespace Debond
       const double wide           = body.coarser_below ? 0.5 : 1.,
                    share_of_cells = (1. + (z - 1.) * wide * wide) / z;
       const bool is_spline        = body.element == ElementKind::spline,
-                 is_quadratic     = body.element == ElementKind::quadratic;
-      const double of_element = is_spline ? 8000. : is_quadratic ? 20000. : 0.;
+                 has_tetrahedra   = body.has_tetrahedra(),
+                 is_quadratic =
+                   body.element == ElementKind::quadratic && !has_tetrahedra;
+      const double of_element = is_spline      ? 8000. :
+                                is_quadratic   ? 20000. :
+                                has_tetrahedra ? 2500. :
+                                                 0.;
       const auto   of_cells   = [&](const double per_unknown) {
         return share_of_cells * ((per_cell + of_element) * n_cells +
                                  per_unknown * n_unknowns_of(body));
@@ -150,12 +157,17 @@ namespace Debond
 
       // four blocks, each of a quarter of the body, if it is its own mirror
       // image
-      const bool is_one_block =
-        body.has_large_strains() || (body.modulus && !body.modulus->is_layered);
-      const double parts = is_one_block ? 1. : 2., p = is_quadratic ? 2. : 1.,
+      const bool is_one_block = body.has_large_strains() || has_tetrahedra ||
+                                (body.modulus && !body.modulus->is_layered);
+      const double parts  = is_one_block ? 1. : 2.,
+                   p      = is_quadratic   ? 2. :
+                            has_tetrahedra ? 0.8 :
+                                             1.,
                    layers = is_spline ? 2. : 1., // that part a box
         share             = share_in_contact(model, side);
-      n_condensed         = 3. * (x + 2.) * (y + 2.) * share;
+      // of a triangle, of three faces, two nodes
+      n_condensed =
+        has_tetrahedra ? 2. * x * y : 3. * (x + 2.) * (y + 2.) * share;
       const double factor = parts * parts * layers *
                             entries_of_factor({{(p * wide * x + 1.) / parts,
                                                 (p * wide * y + 1.) / parts,

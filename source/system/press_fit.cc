@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Debond
@@ -17,7 +18,7 @@ namespace Debond
     control_points_of(const ControlNet &nodes, const NurbsSurface &face)
     {
       ControlNet result = nodes;
-      if (face.degree() == 1)
+      if (face.degree() == 1 || face.has_triangles())
         return result;
       for (unsigned int element = 0; element < face.n_elements(); ++element)
         {
@@ -42,7 +43,8 @@ namespace Debond
     {
       std::vector<std::vector<Eigen::Vector3d>> normals(
         face.n_control_points());
-      const unsigned int p = face.degree();
+      // of a triangle each part has three of the nodes, at corners
+      const unsigned int p = face.has_triangles() ? 1 : face.degree();
       for (unsigned int element = 0; element < face.n_elements(); ++element)
         for (unsigned int k = 0; k < (p + 1) * (p + 1); ++k)
           {
@@ -54,7 +56,14 @@ namespace Debond
                                      face.element_bounds(element)[0] + at,
                                      basis);
             contract(basis, face.control_points(), geometry);
-            normals[basis.control_point[k]].push_back(
+            unsigned int node = k;
+            if (face.has_triangles())
+              node = std::max_element(basis.N.begin(),
+                                      basis.N.begin() + basis.size) -
+                     basis.N.begin();
+            if (face.has_triangles() && basis.N[node] < 0.9)
+              continue; // the middle of the triangle
+            normals[basis.control_point[node]].push_back(
               -geometry.a1.cross(geometry.a2).normalized());
           }
       ControlNet result(3, normals.size());

@@ -67,6 +67,9 @@ def main(program, post) -> int:
         expect(near(number(body + r":.* contact (\S+) mm", text), A + 1.8 * SIDE), f"contact face of the {body}")
     expect(near(number(r"implant:.* held (\S+) mm", text), A), "top of the post")
     expect(near(number(r"bone:.* held (\S+) mm", text), 64 + 4 * 32), "bottom and sides of the bone")
+    with open("post.prm", encoding="utf-8") as file:
+        expect("set Coarser mesh file = post_bone_coarser.msh" in file.read(), "the scene names larger cells for the error")
+    expect(2 * os.path.getsize("post_bone_coarser.msh") < 1.5 * os.path.getsize("post_bone.msh"), "which are fewer")
     checked = subprocess.run([program, "post.prm", "--check"], capture_output=True, text=True, check=False)
     expect(checked.returncode == 1 and "  set Young modulus =" in checked.stderr and "15000 to 23000" in checked.stderr, "the scene asks for what is missing")
     checked = subprocess.run([program, "post.prm", "--check", *(word for entry in (
@@ -88,6 +91,9 @@ def main(program, post) -> int:
     write("peg.step", lambda occ: occ.addCylinder(0, 0, -3, 0, 0, 4, 1))
     text, code = say("peg.step", "bone.step", "--out", "peg", "--size", "0.4")
     expect(code == 0 and near(number(r"implant:.* contact (\S+) mm", text), math.pi * (1 + 2 * 3)), "bodies of two files that touch")
+
+    text, code = say("peg.step", "--bone", "6x4", "--bone-held", "sides", "--out", "through")
+    expect(code == 0 and near(number(r"bone:.* contact (\S+) mm", text), 8 * math.pi), "a hole all the way through")
 
     write("two.step", lambda occ: (occ.addBox(0, 0, 0, 1, 1, 1), occ.addBox(3, 0, 0, 1, 1, 1)))
     write("far.step", lambda occ: occ.addBox(50, 0, 0, 1, 1, 1))

@@ -93,11 +93,20 @@ namespace Debond
     {
       return body_parameters.mesh == nullptr;
     }
-    /** Of the elements. */
+    /** True if its cells are parts of quadratic tetrahedra. */
+    bool
+    has_tetrahedra() const
+    {
+      return body_parameters.has_tetrahedra();
+    }
+    /** Of FE_Q, of which there are but corners in tetrahedra. */
     unsigned int
     degree() const
     {
-      return body_parameters.element == ElementKind::trilinear ? 1 : 2;
+      return body_parameters.element == ElementKind::trilinear ||
+                 has_tetrahedra() ?
+               1 :
+               2;
     }
     /** Triangulation and FESystem, whose dofs 3 k + component belong to node k.
      *  Splines have none, nor a space that has released its own. */
@@ -209,13 +218,15 @@ namespace Debond
     /** A cell of the bulk: the nodes of FE_Q in
      *  deal.II's order, or, in the contact layer, the control points of its
      *  surface element followed by the nodes of FE_Q that are not on it. With
-     *  splines: those of its surface element, in three levels. */
+     *  splines: those of its surface element, in three levels. Of a part of a
+     *  tetrahedron the ten nodes of that. */
     struct Cell
     {
       bool         enriched = false;    ///< it is bounded by the contact face
       ContactFace  face;                ///< of an enriched one
       unsigned int surface_element = 0; ///< above or below it
       unsigned int layer           = 0; ///< from the contact face, in a lattice
+      unsigned int first_corner    = 0; ///< of BodyMesh::PartOfSimplex
       std::vector<unsigned int>   nodes;
       std::array<unsigned int, 8> vertices; ///< all vertices, deal.II's order
     };
@@ -245,6 +256,8 @@ namespace Debond
     number_nodes_of_splines();
     void
     number_nodes_of_cells();
+    void
+    number_nodes_of_tetrahedra();
     std::vector<unsigned int>
     nodes_of_element(unsigned int element) const;
     std::vector<unsigned int>
@@ -257,6 +270,8 @@ namespace Debond
     direction_across(const Cell &cell, unsigned int side) const;
     void
     hold_and_tie_cells();
+    void
+    tie_middles(const Cell &cell);
     void
     hold_followed_nodes();
     void
@@ -319,7 +334,10 @@ namespace Debond
    * FE_Q across which is 1 there. Or, with splines M_k of the depth, in all
    * layers
    *
-   *   x = sum_k M_k(zeta) sum_A N_A(xi,eta) x_kA.
+   *   x = sum_k M_k(zeta) sum_A N_A(xi,eta) x_kA,
+   *
+   * or, in a part of a tetrahedron, quadratic_functions() of its barycentric
+   * coordinates, which are trilinear in the part.
    *
    * In a cell splines are polynomials of the degree of FE_Q(2), known by their
    * values at its support points: B_b = sum_a E_ab phi_a, and those of weight
@@ -359,7 +377,7 @@ namespace Debond
     const BulkSpace       &space;
     const BulkSpace::Cell &cell;
     std::bitset<27>        on_face; ///< functions of FE_Q that NURBS replace
-    Eigen::MatrixXd        E;       ///< functions of FE_Q x splines
+    Eigen::MatrixXd        E;       ///< functions of FE_Q x splines, or L_i
     Eigen::VectorXd        w;       ///< of each spline; empty: all 1
   };
 } // namespace Debond

@@ -22,7 +22,8 @@ namespace Debond
   {
     static constexpr unsigned int max_size = 9 + 4;
 
-    /** (p+1)^2: 9 biquadratic, 4 bilinear; and 4 of a SlavePoint over a gap. */
+    /** (p+1)^2: 9 biquadratic, 4 bilinear, or 6 of a triangle; and 4 of a
+     *  SlavePoint over a gap. */
     unsigned int size    = 0;
     unsigned int element = 0; ///< element index, first parameter fastest
     std::array<unsigned int, max_size> control_point; ///< global indices
@@ -97,6 +98,20 @@ namespace Debond
                  const std::vector<std::vector<unsigned int>> &faces,
                  const ControlNet                             &control_points,
                  const std::vector<double>                    &weights = {});
+
+    /** Makes the patches of degree 2 parts of quadratic triangles, each at the
+     *  vertex 0 of one, which is its corner @p first: functions are those of
+     *  quadratic_functions() in place of Bernstein polynomials, @p nodes of
+     *  each face their control points, at @p places. */
+    void
+    use_triangles(const std::vector<std::array<unsigned int, 6>> &nodes,
+                  const std::vector<unsigned int>                &first,
+                  const ControlNet                               &places);
+    bool
+    has_triangles() const
+    {
+      return !extraction.empty();
+    }
 
     /** One surface of several patches. Control points at the same place are
      *  one, and elements meet where corners of both are at the same place:
@@ -264,6 +279,11 @@ namespace Debond
                         const Eigen::Vector2d &xi,
                         Basis                 &basis) const;
 
+    unsigned int
+    n_control_points_of_element() const
+    {
+      return has_triangles() ? 6 : (degree() + 1) * (degree() + 1);
+    }
     /** Control points of an element, in the order of SurfaceBasis. */
     std::array<unsigned int, SurfaceBasis::max_size>
     element_control_points(unsigned int element) const;
@@ -364,6 +384,7 @@ namespace Debond
       std::vector<unsigned int>   control_points;
       std::array<unsigned int, 4> corners{{0, 0, 0, 0}};
       unsigned int                patch = 0, piece = 0;
+      unsigned int                first_corner = 0; ///< of part of a triangle
       std::array<unsigned int, 2> span{{0, 0}};
       struct Neighbour
       {
@@ -392,5 +413,7 @@ namespace Debond
     std::vector<std::array<KnotVector, 2>> patch_knots; ///< of several
     unsigned int                           n_in_row = 1, number_of_pieces = 1;
     std::vector<std::vector<unsigned int>> faces_at; ///< corners
+    /** Of triangles: functions x Bernstein polynomials, by first_corner. */
+    std::vector<Eigen::Matrix<double, 6, 9>> extraction;
   };
 } // namespace Debond

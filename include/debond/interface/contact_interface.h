@@ -278,6 +278,11 @@ namespace Debond
     difference_of_halves(const InterfaceConfiguration &middle,
                          const InterfaceConfiguration &configuration) const;
 
+    /** Nodal forces on the implant in the accepted state [N] of points that
+     *  have left the master over its edge in the last evaluate(). */
+    ControlNet
+    let_go(const InterfaceConfiguration &configuration) const;
+
     /** Nodal forces of the last evaluate() on the control points of a side, in
      *  space, as they enter the residual [N]; and on the points of its frame,
      *  which make up a moment. */

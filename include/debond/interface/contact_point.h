@@ -76,6 +76,9 @@ namespace Debond
     /** For points beyond the master's edge: how far the surfaces may still
      *  move before such a point has to be projected again [mm]. */
     double clearance = 0;
+    /** Of a point that has just left a piece of the master over its edge: the
+     *  height over another one, of which it is below already [mm]; else 0. */
+    double enters_at = 0;
     /** Tangential traction of the accepted state in the master's frame [MPa].
      */
     Eigen::Vector3d accepted_traction         = Eigen::Vector3d::Zero();
@@ -124,9 +127,9 @@ namespace Debond
         }
       else
         {
-          archive &accepted &clearance       &accepted_traction;
-          archive &accepted_viscous_traction &accepted_viscous_pressure;
-          archive &slipped                   &marked;
+          archive &accepted &clearance &enters_at &accepted_traction;
+          archive &accepted_viscous_traction      &accepted_viscous_pressure;
+          archive &slipped                        &marked;
           // what a run that has ended still writes
           archive &trial.pressure &trial.tangential_traction;
           if (Archive::is_loading::value)

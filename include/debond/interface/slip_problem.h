@@ -253,6 +253,9 @@ namespace Debond
       return *by_xi;
     }
 
+    Eigen::Matrix2d
+    inverse_along_surface();
+
     // Everything at a trial xi_hat; the distance [mm] by which the equations
     // are missed there; and the line search, which halves a step until that
     // distance is smaller.
@@ -282,6 +285,13 @@ namespace Debond
     step_in_element(const NurbsSurface::Place &place);
     SlipOutcome
     solve_with_ridges(const Eigen::Vector2d &start);
+    // On a side where two elements meet at an angle: the tangent of the other
+    // one, and the local problem with the normal's turn as an unknown. False
+    // at a corner, and if that has not been found.
+    Eigen::Vector3d
+    tangent_beside(const NurbsSurface::Place &place, bool is_last);
+    bool
+    turn_on_ridge(NurbsSurface::Place place);
 
     const PointStep    &point;
     const NurbsSurface &surface; ///< of the master
@@ -290,6 +300,9 @@ namespace Debond
     Eigen::Vector2d last_step, xi_hat;
     /** Parameters that a ridge of the master holds. */
     std::array<bool, 2> held{{false, false}};
+    /** On a ridge, the parameter across it and the width of its fillet. */
+    unsigned int across = 0;
+    double       fillet = 1.;
 
     // The master at the last trial place, and the equations there. They refer
     // to the geometry, so that a new place needs new equations; they are made

@@ -40,11 +40,33 @@ namespace Debond
     points_of_second_order(
       const dealii::Triangulation<3>::cell_iterator &cell) const;
 
+    /** Whether its cells are parts of tetrahedra. */
+    bool
+    has_tetrahedra() const
+    {
+      return !ends.empty();
+    }
+    /** Of these, or of triangles on the boundary, the part that has these
+     *  corners, in deal.II's order. */
+    struct PartOfSimplex
+    {
+      /** Vertices of the mesh at its nodes, in the order of
+       *  quadratic_functions(), as axes of the part are. */
+      std::vector<unsigned int> nodes;
+      unsigned int              first_corner = 0; ///< where vertex 0 is
+    };
+    PartOfSimplex
+    part_of_simplex(const std::vector<unsigned int> &corners) const;
+
     /** Vertices of an edge, a face or a cell, ascending, then invalid ones:
      *  what tells it from others in whatever order deal.II has its vertices. */
     using Vertices = std::array<unsigned int, 8>;
     /** Nodes in the middle of edges, faces and cells, of order 2. */
     std::map<Vertices, dealii::Point<3>> middles;
+    /** Vertices of tetrahedra that each vertex is in the middle of, ascending,
+     *  itself at one of these; and which one is. Empty: they are hexahedra. */
+    std::vector<std::vector<unsigned int>>            ends;
+    std::map<std::vector<unsigned int>, unsigned int> between;
     /** Whether edges of the contact face are arcs of circles, or straight,
      *  exactly. */
     bool has_arcs = false;

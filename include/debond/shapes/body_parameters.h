@@ -79,9 +79,12 @@ namespace Debond
     double       cap_radius = 50;               ///< of the sphere [mm]
     /** Of a cap, that cells are fitted to [mm]; 0: its radius. */
     double      contact_radius = 0;
-    std::string mesh_file;
+    std::string mesh_file, coarser_mesh_file;
     /** Of a shape that is no lattice; see make_mesh(). */
     std::shared_ptr<const BodyMesh> mesh;
+    /** Whether its cells are parts of quadratic tetrahedra. */
+    bool
+    has_tetrahedra() const;
     /** Number of cells in x, y, z; z along the axis (`Cells = n, m` becomes
      *  n, n, m). Around, radial and along of pin and sleeve. */
     std::array<unsigned int, 3> cells{{15, 15, 2}};

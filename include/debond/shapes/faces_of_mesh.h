@@ -46,6 +46,11 @@ namespace Debond
   cells_at_contact_face(const dealii::Triangulation<3> &triangulation,
                         FacesOfMesh which = FacesOfMesh::contact);
 
+  /** Of such a face, as corners of the surface element. */
+  std::vector<unsigned int>
+  vertices_of_face(const dealii::Triangulation<3>::active_cell_iterator &cell,
+                   const ContactFace                                    &face);
+
   using FaceWeights = Eigen::Matrix<double, 9, 1>;
 
   /** Of values at the 3 x 3 nodes of a face makes those of the control points
@@ -57,7 +62,7 @@ namespace Debond
 
   /** The contact face of a body from a file, or others: a patch for each face
    *  of its cells, of degree 1 (bilinear) or 2, which passes through the four
-   * or nine nodes of the face. */
+   * or nine nodes of the face, or the six of its triangle. */
   NurbsSurface
   contact_surface_of(const BodyMesh &mesh,
                      unsigned int    degree,

@@ -64,6 +64,8 @@ namespace Debond
     void
     check_contact_face() const;
     void
+    number_simplices();
+    void
     build();
 
     Vertices

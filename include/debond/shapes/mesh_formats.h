@@ -53,6 +53,10 @@ namespace Debond
     dealii::Point<3> sphere_centre;
     double           sphere_radius = 0.;
 
+    /** Where these were cut, ends of the edge, the face or the tetrahedron that
+     *  a corner of hexahedra is in the middle of, ascending. */
+    std::map<std::vector<unsigned int>, unsigned int> middles;
+
     /** One with nodes at these places. */
     void
     add_hexahedron(const std::vector<unsigned int> &nodes,

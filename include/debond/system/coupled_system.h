@@ -183,6 +183,10 @@ namespace Debond
      */
     Chuck::Vector6
     chuck_forces() const;
+    /** Part of the accepted forces that points carried which leave the master
+     *  over its edge in the trial state, on the trial state's arms. */
+    Chuck::Vector6
+    let_go() const;
     /** Force and moment about C + u that the chuck exerts on the implant, in
      *  space, from the contact forces [N, N mm]. */
     Chuck::Vector6
@@ -282,6 +286,12 @@ namespace Debond
     force_on_points(Side side) const;
     double
     evaluate_chuck(Residual &residual);
+    /** Of the implant's control points about C + u, in space [mm]. */
+    ControlNet
+    arms_of_chuck() const;
+    /** Of a resultant what does work on the components of the chuck. */
+    Chuck::Vector6
+    in_components(const Chuck::Vector6 &total) const;
     Eigen::VectorXd
     rates_by_duration(const InterfaceConfiguration &moving);
     void

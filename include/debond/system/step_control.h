@@ -57,6 +57,9 @@ namespace Debond
     double path_left = std::numeric_limits<double>::infinity();
     /** Along a path: a load has nothing left to act against. */
     bool is_detached = false;
+    /** Part of the forces before that points carried which have left a face
+     *  over its edge since: known with adaptive steps only. */
+    Chuck::Vector6 let_go = Chuck::Vector6::Zero();
   };
 
   /**

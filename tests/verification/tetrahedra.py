@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Writes the meshes of patch_of_tetrahedra.prm and chamfer.prm beside this file. Needs Gmsh (apt install python3-gmsh).
+
+Two boxes of 4 x 3 x 2 mm, one on the other, with tetrahedra of ten nodes that do not match. A bone with a hole of 3 x 2 mm, 1.5 mm
+deep, and a chamfer of 0.4 mm along its side at x = 1.5 mm; a box of 2.8 x 1.8 x 1 mm above it, whose side at x = 1.7 mm is over the
+chamfer: tetrahedra of four nodes."""
+import os
+
+import gmsh
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def write(name, make, groups, size, order):
+    """The body that `make` adds; `groups`: of each name what a face with this centre and box is asked [mm]."""
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    solid = make(gmsh.model.occ)
+    gmsh.model.occ.synchronize()
+    for option, value in (("MeshSizeMin", size), ("MeshSizeMax", size), ("ElementOrder", order)):
+        gmsh.option.setNumber("Mesh." + option, value)
+    gmsh.model.addPhysicalGroup(3, [solid])
+    for group, is_one in groups.items():
+        faces = [face for _, face in gmsh.model.getEntities(2)
+                 if is_one(gmsh.model.occ.getCenterOfMass(2, face), gmsh.model.getBoundingBox(2, face))]
+        gmsh.model.setPhysicalName(2, gmsh.model.addPhysicalGroup(2, faces), group)
+    gmsh.model.mesh.generate(3)
+    gmsh.write(os.path.join(HERE, name))
+    gmsh.finalize()
+
+
+def at(d, value):
+    return lambda centre, box: abs(centre[d] - value) < 1e-3
+
+
+def bone_with_chamfer(occ):
+    corners = [occ.addPoint(*x) for x in ((1.5, -1, 0), (1.9, -1, 0), (1.5, -1, -0.4))]
+    sides = [occ.addLine(corners[i], corners[(i + 1) % 3]) for i in range(3)]
+    wedge = occ.extrude([(2, occ.addPlaneSurface([occ.addCurveLoop(sides)]))], 0, 2, 0)
+    tools = [(3, occ.addBox(-1.5, -1, -1.5, 3, 2, 1.5))] + [made for made in wedge if made[0] == 3]
+    left, _ = occ.cut([(3, occ.addBox(-3, -2.5, -3, 6, 5, 3))], tools)
+    return left[0][1]
+
+
+SIDES = {f"slides {name}": lambda centre, box, d=d, width=width: abs(abs(centre[d]) - width / 2) < 1e-3 for name, d, width in (("x", 0, 4), ("y", 1, 3))}
+write("patch_bone.msh", lambda occ: occ.addBox(-2, -1.5, -2, 4, 3, 2), {"contact": at(2, 0), "held": at(2, -2), **SIDES}, 1.3, 2)
+write("patch_implant.msh", lambda occ: occ.addBox(-2, -1.5, 0, 4, 3, 2), {"contact": at(2, 0), "held": at(2, 2), **SIDES}, 1, 2)
+write("chamfer_bone.msh", bone_with_chamfer,
+      {"contact": lambda centre, box: box[0] > -1.6 and box[3] < 1.95 and box[1] > -1.01 and box[4] < 1.01, "held": at(2, -3)}, 1, 1)
+write("chamfer_implant.msh", lambda occ: occ.addBox(-1.1, -0.9, 0, 2.8, 1.8, 1),
+      {"contact": lambda centre, box: at(2, 0)(centre, box) or at(0, 1.7)(centre, box), "held": at(2, 1)}, 0.35, 1)

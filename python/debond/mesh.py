@@ -334,9 +334,9 @@ def _mesh(files, options):
         say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra, smallest angle {angle:.0f} degrees")
         _write(f"{name}_{body}.msh", solid, groups[solid])
     unknowns = 12 * sum(len(gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[0]) for face in contact)  # 3 of each of 2 x 2 nodes
-    if unknowns > 10000:
-        say(f"warning: the contact faces have some {unknowns} unknowns, and time grows with their third power (6000 take a minute): "
-            "take a larger --size")
+    if unknowns > 15000:
+        say(f"warning: the contact faces have some {unknowns} unknowns (15000 take minutes and 3.5 GB, twice as many four times that): "
+            "take a larger --size, or a rigid implant")
     write_whole(name + ".svg", _picture([(implant, groups[implant], False), (bone, groups[bone], True)]))
     has_coarser = _fill_untangled(implant, bone, fields, 1.5 * factor * size, 1.5 * factor * edge_size, (1, 0.9))
     for solid, body in bodies if has_coarser else ():

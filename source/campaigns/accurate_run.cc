@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <utility>
@@ -65,7 +66,16 @@ namespace Debond
           DebondingProblem(coarser).run(checkpoint ? &*checkpoint : nullptr);
         }
       catch (const RunError &)
-        {} // its summary says why
+        {}                          // its summary says why
+      catch (const InputError &why) // of cells that are too thin, or a file
+        {
+          if (Ranks::is_first())
+            {
+              std::filesystem::create_directories(coarser.output.directory);
+              write_json(coarser.output.directory + "/summary.json",
+                         {{"converged", false}, {"reason", why.what()}});
+            }
+        }
       catch (const Interrupted &interrupted)
         {
           throw Interrupted(interrupted.signal,

@@ -187,27 +187,29 @@ namespace Debond
     }
 
 
+
+    /** Of the map of a cell with these points, at place @p q of the table. */
+    double
+    jacobian(const std::array<dealii::Point<3>, 27> &x, const unsigned int q)
+    {
+      dealii::Tensor<2, 3> F;
+      for (unsigned int a = 0; a < 27; ++a)
+        F += outer_product(x[a], gradients()[q][a]);
+      return determinant(F);
+    }
   } // namespace
 
 
 
-  // All determinants may be negative: deal.II turns such a cell around.
+  // All determinants may be negative: such a cell is turned around.
   bool
   MeshBuilder::is_tangled(const Points &x) const
   {
-    const double size = x[0].distance(x[7]);
-    double       sign = 0.;
-    for (const auto &gradient : gradients())
-      {
-        dealii::Tensor<2, 3> F;
-        for (unsigned int a = 0; a < 27; ++a)
-          F += outer_product(x[a], gradient[a]);
-        const double det = determinant(F);
-        if (sign == 0.)
-          sign = det > 0. ? 1. : -1.;
-        if (!(sign * det > 1e-9 * size * size * size))
-          return true;
-      }
+    const double size = x[0].distance(x[7]),
+                 sign = jacobian(x, 0) > 0. ? 1. : -1.;
+    for (unsigned int q = 0; q < gradients().size(); ++q)
+      if (!(sign * jacobian(x, q) > 1e-9 * size * size * size))
+        return true;
     return false;
   }
 
@@ -270,7 +272,11 @@ namespace Debond
     mesh->box             = dealii::BoundingBox<3>(vertex_points);
     mesh->box_of_face     = dealii::BoundingBox<3>(on_face);
     mesh->n_contact_faces = on_face.size() / 4;
-    dealii::GridTools::invert_cells_with_negative_measure(vertex_points, cells);
+    // the map of all nodes says which way round a cell is, not that of the
+    // corners, which may be tangled
+    for (unsigned int cell = 0; cell < cells.size(); ++cell)
+      if (auto &corners = cells[cell].vertices; jacobian(points[cell], 0) < 0.)
+        std::rotate(corners.begin(), corners.begin() + 4, corners.end());
     dealii::GridTools::consistently_order_cells(cells);
     mesh->triangulation.create_triangulation(vertex_points,
                                              cells,

@@ -331,7 +331,7 @@ def _mesh(files, options):
     for solid, body in bodies:
         angle, cells = _smallest_angle(solid)
         areas = ", ".join(f"{kind} {_mm(sum(gmsh.model.occ.getMass(2, face) for face in faces))} mm^2" for kind, faces in groups[solid].items())
-        say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra, smallest angle {angle:.0f} degrees")
+        say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra of {_mm(factor * size)} mm, smallest angle {angle:.0f} degrees")
         _write(f"{name}_{body}.msh", solid, groups[solid])
     unknowns = 12 * sum(len(gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[0]) for face in contact)  # 3 of each of 2 x 2 nodes
     if unknowns > 15000:

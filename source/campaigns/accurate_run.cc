@@ -168,7 +168,10 @@ namespace Debond
       if (!finer || (!is_among(scene.chosen, "Bone / Cells") &&
                      number_in(summary, "error_estimate") > 0.9 * error_before))
         {
-          text += ": the scene sets its cells itself";
+          text += scene.bone.shape == BodyShape::file ||
+                      scene.implant.shape == BodyShape::file ?
+                    ": the cells are those of files, make smaller ones" :
+                    ": the scene sets its cells itself";
           return {};
         }
       // condensation takes the square of the unknowns, most others less
@@ -297,9 +300,13 @@ namespace Debond
                                   ", as the scene sets its cells\n");
     // of runs with 1400 to 240 000 unknowns, most within a factor of four;
     // those of quadratic cells about an axis take longer
-    const double rate = scene.implant.geometry().is_in_bore() ? 1.6e-4 : 4e-5;
-    if (const double n = n_unknowns_of(scene); n > 0.)
-      text << "both take some " << to_text(rate * std::pow(n, 1.2), 2)
+    const double rate = scene.implant.geometry().is_in_bore() ? 1.6e-4 : 4e-5,
+                 n    = n_unknowns_of(scene);
+    if (n > 0.)
+      text << "both take some "
+           << to_text(scene.bone.has_tetrahedra() ? 1.8e-4 * std::pow(n, 1.3) :
+                                                    rate * std::pow(n, 1.2),
+                      2)
            << " s; stiff interfaces, and steps that are many, up to four times "
               "that\n";
     std::string list;

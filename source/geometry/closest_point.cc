@@ -432,20 +432,27 @@ namespace Debond
 
 
     /** Squared distance of the box around the control points of an element;
-     *  weights are positive, so the element lies inside. */
+     *  weights are positive, so the element lies inside. Of a triangle those of
+     *  Bernstein polynomials, which its nodes determine. */
     double
     squared_distance_bound(const DistanceProblem &problem,
                            const unsigned int     element)
     {
-      const auto indices   = problem.surface.element_control_points(element);
-      const unsigned int n = problem.surface.degree() + 1;
-      Vector3d           lower = problem.control_points.col(indices[0]);
-      Vector3d           upper = lower;
-      for (unsigned int k = 1; k < n * n; ++k)
+      const auto indices      = problem.surface.element_control_points(element);
+      const unsigned int n    = problem.surface.n_control_points_of_element();
+      const auto         node = [&](const unsigned int k) {
+        return problem.control_points.col(indices[k]);
+      };
+      constexpr unsigned int ends[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+      Vector3d               lower = node(0), upper = lower;
+      for (unsigned int k = 1; k < n; ++k)
         {
-          const Vector3d point = problem.control_points.col(indices[k]);
-          lower                = lower.cwiseMin(point);
-          upper                = upper.cwiseMax(point);
+          Vector3d point = node(k);
+          if (problem.surface.has_triangles() && k > 2)
+            point =
+              2. * point - 0.5 * (node(ends[k - 3][0]) + node(ends[k - 3][1]));
+          lower = lower.cwiseMin(point);
+          upper = upper.cwiseMax(point);
         }
       return (problem.x - problem.x.cwiseMax(lower).cwiseMin(upper))
         .squaredNorm();

@@ -191,7 +191,8 @@ namespace Debond
 
 
   // Every point of a surface is a convex combination of control points, so none
-  // moves further than the control point that moves most.
+  // moves further than the control point that moves most. Of a triangle, whose
+  // functions may be negative, by 5/3 of that at most, in its middle.
   //
   // The sum over both sides bounds how much closer [mm] any point of one
   // surface can have come to any point of the other since the accepted state.
@@ -203,7 +204,8 @@ namespace Debond
   {
     double sum = 0.;
     for (const Side side : both_sides)
-      sum += (configuration.side[side].positions - accepted_positions[side])
+      sum += (mesh[side]->surface().has_triangles() ? 5. / 3. : 1.) *
+             (configuration.side[side].positions - accepted_positions[side])
                .colwise()
                .norm()
                .maxCoeff();

@@ -133,16 +133,18 @@ namespace Debond
         effort};
       if (!lines[0].empty())
         lines[0] += words(", 99.9 % of it up to {theta_full_deg} deg");
+      const double cells  = number_in(summary, "error_of_cells"),
+                   steps  = number_in(summary, "error_of_steps"),
+                   bodies = number_in(summary, "error_of_bodies");
       if (const double error = number_in(summary, "error_estimate"); error > 0.)
-        lines.push_back(
-          "Estimated error " + to_text(100. * error, 2) +
-          " % of the largest load: " +
-          to_text(100. * number_in(summary, "error_of_cells"), 2) +
-          " % by cells, " +
-          to_text(100. * number_in(summary, "error_of_steps"), 2) +
-          " % by steps, " +
-          to_text(100. * number_in(summary, "error_of_bodies"), 2) +
-          " % by linear bodies");
+        lines.push_back("Estimated error " + to_text(100. * error, 2) +
+                        (error > 1.001 * (cells + steps + bodies) ?
+                           " %, of the first slope or the peak; of the largest "
+                           "load " :
+                           " % of the largest load: ") +
+                        to_text(100. * cells, 2) + " % by cells, " +
+                        to_text(100. * steps, 2) + " % by steps, " +
+                        to_text(100. * bodies, 2) + " % by linear bodies");
       lines.erase(std::remove(lines.begin(), lines.end(), ""), lines.end());
       return lines;
     }

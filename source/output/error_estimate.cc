@@ -1,6 +1,7 @@
 #include <debond/input/csv_table.h>
 #include <debond/output/error_estimate.h>
 #include <debond/output/result_files.h>
+#include <debond/scene/finer_scenes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -266,7 +267,7 @@ namespace Debond
         return body.shape == BodyShape::file || body.is_rigid();
       };
       if (is_of_file(bone) && is_of_file(implant) &&
-          bone.coarser_mesh_file.empty() && implant.coarser_mesh_file.empty() &&
+          !has_coarser_files(scene) &&
           (bone.shape == BodyShape::file || implant.shape == BodyShape::file))
         return 0.25;
       return scene.interface.bonding_of_law().pattern !=
@@ -305,10 +306,12 @@ namespace Debond
         return;
       }
     // more cells where there cannot be fewer: the error of the coarser of two
-    const double share =
-      share_left(scene) +
-      (number_in(other, "unknowns") > number_in(summary, "unknowns") ? 1. : 0.);
-    bodies = of_linear_bodies(summary);
+    // (trilinear cells of tetrahedra are more, and worse)
+    const bool is_finer =
+      number_in(other, "unknowns") > number_in(summary, "unknowns") &&
+      !scene.bone.has_tetrahedra() && !scene.implant.has_tetrahedra();
+    const double share = share_left(scene) + (is_finer ? 1. : 0.);
+    bodies             = of_linear_bodies(summary);
     compare(scene, rows, coarser, share);
     find_members(rows, summary, other, share);
     const Answer answer(scene);

@@ -107,21 +107,6 @@ namespace Debond
 
 
 
-    /** Whether there are other files of deformable bodies for that. */
-    bool
-    has_coarser_files(const Scene &scene)
-    {
-      bool result = false;
-      for (const BodyParameters *const body : {&scene.bone, &scene.implant})
-        if (!body->coarser_mesh_file.empty())
-          result = true;
-        else if (body->shape == BodyShape::file && !body->is_rigid())
-          return false;
-      return result;
-    }
-
-
-
     using Changes = std::map<std::string, std::string>;
 
     // Cells of a file stay: with fewer of the other body they are those of
@@ -194,6 +179,20 @@ namespace Debond
 
     const std::string choices_begin = "# chosen by Accuracy: ";
   } // namespace
+
+
+
+  bool
+  has_coarser_files(const Scene &scene)
+  {
+    bool result = false;
+    for (const BodyParameters *const body : {&scene.bone, &scene.implant})
+      if (!body->coarser_mesh_file.empty())
+        result = true;
+      else if (body->shape == BodyShape::file && !body->is_rigid())
+        return false;
+    return result;
+  }
 
 
 

@@ -294,7 +294,7 @@ namespace Debond
       coarser_mesh_file,
       file,
       "The body with cells 1.5 times as long, for the estimate of the error. "
-      "`none': that by trilinear ones, of tetrahedra up to 10 times too large.");
+      "`none': trilinear cells of Mesh file, with tetrahedra slower than the run.");
   }
 
 

@@ -151,6 +151,8 @@ namespace Debond
       mesh->ends.push_back({v});
     for (const auto &[nodes, middle] : stored.middles)
       {
+        if (vertex[middle] == StoredMesh::none)
+          continue; // of a face that is none of the body
         auto &own = mesh->ends[vertex[middle]];
         own.clear();
         for (const unsigned int node : nodes)

@@ -116,13 +116,24 @@ namespace Debond
 
 
   // A point leaves a face all at once, and what it stands for little by little:
-  // steps are not made small to see it do so. The curve goes on without the
-  // jump, see take().
+  // steps are not made small to see it do so, unless it is much. The curve goes
+  // on without the jump, see take().
+  AdaptiveStepping::Forces
+  AdaptiveStepping::passed_over(const StepState &state) const
+  {
+    constexpr double most   = 5.; // tolerances
+    const Forces     let_go = answers(state.let_go, Forces::Zero());
+    return relative(let_go, state, true) <= most * tolerance ? let_go :
+                                                               Forces::Zero();
+  }
+
+
+
   AdaptiveStepping::Node
   AdaptiveStepping::node_of(const StepState &state) const
   {
     return {state.time,
-            answers(state.forces + state.let_go, state.position),
+            answers(state.forces, state.position) + passed_over(state),
             answers(state.force_rates, state.position_rates)};
   }
 
@@ -323,7 +334,8 @@ namespace Debond
       }
     drive_change =
       drive_change.cwiseMax((state.drive - first_drive).cwiseAbs());
-    const Node last            = node_of(state);
+    const Node   last          = node_of(state);
+    const Forces jump          = passed_over(state);
     const auto [smooth, drawn] = error_between(state);
     const double taken         = step.time - time;
     // to 0.8 of the tolerance: the error of the cubic goes with the fourth
@@ -355,7 +367,7 @@ namespace Debond
     has_previous = last.rates.allFinite();
     current      = last;
     for (Node *const node : {&previous, &current})
-      node->answers -= answers(state.let_go, Forces::Zero());
+      node->answers -= jump;
     time = step.time;
     if (time == turn && time != end)
       {

@@ -15,9 +15,13 @@ namespace Debond
   unsigned int
   fewer_cells(unsigned int n);
 
+  /** Whether all deformable bodies from files have a Coarser mesh file. */
+  bool
+  has_coarser_files(const Scene &scene);
+
   /** The scene with two thirds of the cells in every direction, or with half as
    *  many again where some cannot be fewer, and half the planned steps: what
-   * its error is estimated by. Quadratic elements of a file are trilinear. Its
+   * its error is estimated by. Files are the coarser ones, or trilinear. Its
    *  results are in the folder `coarser` of the scene's. None if nothing of its
    *  meshes can be changed. */
   std::optional<Scene>

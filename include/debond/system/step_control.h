@@ -304,6 +304,9 @@ namespace Debond
         archive &time &answers &rates;
       }
     };
+    /** The part of the forces that points let go of, if it is little. */
+    Forces
+    passed_over(const StepState &state) const;
     Node
     node_of(const StepState &state) const;
     void

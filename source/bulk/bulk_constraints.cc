@@ -88,16 +88,14 @@ namespace Debond
     for (const auto &cell : dofs.active_cell_iterators())
       {
         const Cell &info = bulk_cells[cell->active_cell_index()];
+        if (has_tetrahedra())
+          tie_middles(info);
+        if (!cell->at_boundary())
+          continue;
         for (const unsigned int f : cell->face_indices())
           for (const auto &[id, components] : supports)
             if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
               hold(info, f, components);
-      }
-    for (const auto &cell : dofs.active_cell_iterators())
-      {
-        const Cell &info = bulk_cells[cell->active_cell_index()];
-        if (has_tetrahedra())
-          tie_middles(info);
         if (!info.enriched)
           continue;
         const auto nodes = nodes_of_fe(cell);
@@ -111,27 +109,34 @@ namespace Debond
 
 
 
+  // The node moves as the others do, each by its weight.
+  void
+  BulkSpace::tie_node(const unsigned int                       node,
+                      const unsigned int                      *others,
+                      const Eigen::Ref<const Eigen::VectorXd> &weights)
+  {
+    tied[node] = true;
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        follow.add_line(3 * node + c);
+        for (unsigned int a = 0; a < weights.size(); ++a)
+          if (weights[a] != 0.)
+            follow.add_entry(3 * node + c, 3 * others[a] + c, weights[a]);
+      }
+  }
+
+
+
   // Corners of parts that are no nodes of the tetrahedron.
   void
   BulkSpace::tie_middles(const Cell &cell)
   {
     const auto L = barycentric_corners<3>(cell.first_corner);
     for (unsigned int v = 0; v < 8; ++v)
-      if (const unsigned int node = cell.vertices[v];
-          (L.col(v).array() > 0.).count() > 2 && !tied[node])
-        {
-          tied[node]   = true;
-          const auto N = quadratic_functions(L.col(v).eval());
-          for (unsigned int c = 0; c < 3; ++c)
-            {
-              follow.add_line(3 * node + c);
-              for (unsigned int a = 0; a < N.rows(); ++a)
-                if (N(a, 0) != 0.)
-                  follow.add_entry(3 * node + c,
-                                   3 * cell.nodes[a] + c,
-                                   N(a, 0));
-            }
-        }
+      if ((L.col(v).array() > 0.).count() > 2 && !tied[cell.vertices[v]])
+        tie_node(cell.vertices[v],
+                 cell.nodes.data(),
+                 quadratic_functions(L.col(v).eval()).col(0));
   }
 
 
@@ -211,22 +216,15 @@ namespace Debond
       if (const unsigned int node = nodes_of_fe[a];
           scalar_fe.has_support_on_face(a, face.number) && !tied[node])
         {
-          tied[node]                 = true;
           const dealii::Point<3> &at = scalar_fe.unit_support_point(a);
           contact_surface.evaluate_in_element(
             element,
             parameters_at(bounds, {at[face.axes[0]], at[face.axes[1]]}),
             basis);
-          for (unsigned int c = 0; c < 3; ++c)
-            {
-              follow.add_line(3 * node + c);
-              for (unsigned int b = 0; b < basis.size; ++b)
-                if (basis.N[b] != 0.)
-                  follow.add_entry(
-                    3 * node + c,
-                    3 * control_point_node(basis.control_point[b]) + c,
-                    basis.N[b]);
-            }
+          tie_node(node,
+                   nodes_of_element(element).data(),
+                   Eigen::Map<const Eigen::VectorXd>(basis.N.data(),
+                                                     basis.size));
         }
   }
 

@@ -1,3 +1,4 @@
+#include <debond/geometry/quadratic_simplex.h>
 #include <debond/shapes/mesh_formats.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -20,22 +21,17 @@ namespace Debond
     std::vector<Weights>
     weights_in_hexahedron(const unsigned int vertex)
     {
-      std::vector<Weights> corners;
-      for (unsigned int c = 0; c < 8; ++c)
-        {
-          Weights &w = corners.emplace_back(Weights::Unit(vertex));
-          for (unsigned int d = 0; d < 3; ++d)
-            if ((c >> d & 1) != 0)
-              w += Weights::Unit((vertex + 1 + d) % 4);
-          w /= w.sum();
-        }
+      const auto           corners = barycentric_corners<3>(0);
       std::vector<Weights> result;
       for (const dealii::Point<3> &place : places_in_hexahedron())
         {
-          Weights &w = result.emplace_back(Weights::Zero());
+          Weights own = Weights::Zero(); // of the vertices after this one
           for (unsigned int c = 0; c < 8; ++c)
-            w += dealii::GeometryInfo<3>::d_linear_shape_function(place, c) *
-                 corners[c];
+            own += dealii::GeometryInfo<3>::d_linear_shape_function(place, c) *
+                   corners.col(c);
+          Weights &w = result.emplace_back();
+          for (unsigned int v = 0; v < 4; ++v)
+            w[(vertex + v) % 4] = own[v];
         }
       return result;
     }

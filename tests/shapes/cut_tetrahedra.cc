@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <fstream>
+#include <stdexcept>
 
 #include "checks.h"
 
@@ -176,6 +177,59 @@ write_msh(const File &file, const std::string &name)
   out << "$EndElements\n";
 }
 
+/** By the functions of the program; a part that is the wrong way round counts
+ *  as less than nothing, as in its stiffness. */
+double
+volume_of(const BulkSpace &space)
+{
+  const auto rule = dealii::QGauss<3>(3);
+  double     sum  = 0.;
+  for (const BulkSpace::Cell &cell : space.cells())
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const ShapeValues N = CellFunctions(space, cell).at(rule.point(q));
+        Eigen::Matrix3d   J = Eigen::Matrix3d::Zero();
+        for (unsigned int a = 0; a < N.rows(); ++a)
+          J += space.reference_position(cell.nodes[a]) * N.row(a).tail<3>();
+        sum += rule.weight(q) * J.determinant();
+      }
+  return sum;
+}
+
+/** Its sides are so curved that one of the four hexahedra has a negative volume
+ *  by its corners, though the map of the tetrahedron is positive. */
+void
+test_tangled_corners()
+{
+  const Tetrahedron t{{{0., 0., 0.},
+                       {1., 0., 0.},
+                       {0., 1., 0.},
+                       {0., 0., 1.},
+                       {0.471, 0.143, -0.006},
+                       {0.178, 0.598, 0.22},
+                       {0.228, 0.809, 0.184},
+                       {-0.198, -0.227, 0.396},
+                       {0.534, -0.28, 0.572},
+                       {0.044, 0.851, 0.026}}};
+  StoredMesh        stored;
+  for (const Vector3d &x : t)
+    stored.nodes.emplace_back(x[0], x[1], x[2]);
+  stored.tetrahedra = {{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}};
+  stored.groups     = {{"held", {{{0, 1, 2, StoredMesh::none}}}},
+                       {"contact", {{{1, 2, 3, StoredMesh::none}}}}};
+  stored.cut_tetrahedra();
+  BodyParameters body;
+  body.shape   = BodyShape::file;
+  body.element = ElementKind::quadratic;
+  body.mesh    = MeshBuilder(stored, [](const std::string &why) {
+                throw std::runtime_error(why);
+              }).mesh;
+  report("volume where corners are tangled",
+         std::abs(volume_of(BulkSpace(body, Side::bone)) / sizes(t, true)[0] -
+                  1.),
+         1e-12);
+}
+
 int
 main()
 {
@@ -205,19 +259,7 @@ main()
           body.element = ElementKind::quadratic;
           body.mesh    = read_mesh_file(name, "Bone / Mesh file");
           const BulkSpace space(body, Side::bone);
-          const auto      rule = dealii::QGauss<3>(3);
-          double          sum  = 0.;
-          for (const BulkSpace::Cell &cell : space.cells())
-            for (unsigned int q = 0; q < rule.size(); ++q)
-              {
-                const ShapeValues N =
-                  CellFunctions(space, cell).at(rule.point(q));
-                Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
-                for (unsigned int a = 0; a < N.rows(); ++a)
-                  J += space.reference_position(cell.nodes[a]) *
-                       N.row(a).tail<3>();
-                sum += rule.weight(q) * std::abs(J.determinant());
-              }
+          const double    sum = volume_of(space);
           report(name + ", " + order + ": volume",
                  std::abs(sum / volume - 1.),
                  1e-12);
@@ -231,4 +273,5 @@ main()
                     << space.surface().n_pieces() << " pieces\n";
         }
     }
+  test_tangled_corners();
 }

@@ -271,6 +271,10 @@ namespace Debond
     void
     hold_and_tie_cells();
     void
+    tie_node(unsigned int                             node,
+             const unsigned int                      *others,
+             const Eigen::Ref<const Eigen::VectorXd> &weights);
+    void
     tie_middles(const Cell &cell);
     void
     hold_followed_nodes();

@@ -48,6 +48,7 @@ _METRIC = {
     **_units("moment", {**_FORCES, "kg": _KGF}, _ARMS),
     # gm would be grams; shouted: M for mega has no meaning here
     **_units("moment", {"gcm": 1e-2 * _KGF, "NM": 1e3, "NCM": 10.0, "NMM": 1.0, "KNM": 1e6}),
+    **_units("angle", {"Grad": 1.0}),  # German nouns have capitals; why_ambiguous() has others
 }
 # these may be shouted
 _OTHER = {
@@ -56,11 +57,12 @@ _OTHER = {
     # alone, pounds and ounces may be masses
     **_units("force", {"lbf": _LBF, "ozf": _LBF / 16}),
     **_units("length", _INCHES),
-    **_units("angle", {"deg degree degrees °": 1.0, "mdeg": 1e-3, "arcmin": 1 / 60, "rad radian radians": _RAD,
-                       "mrad": 1e-3 * _RAD, "urad µrad": 1e-6 * _RAD, "gon": 0.9, "mgon": 0.9e-3,
-                       "rev revs revolution revolutions turn turns": 360.0}),
+    **_units("angle", {"deg degree degrees ° degré degrés grados gradi": 1.0, "mdeg": 1e-3, "arcmin": 1 / 60,
+                       "rad radian radians": _RAD, "mrad": 1e-3 * _RAD, "urad µrad": 1e-6 * _RAD, "gon": 0.9, "mgon": 0.9e-3,
+                       "rev revs revolution revolutions turn turns umdrehungen": 360.0}),
     # the name `time` is enough
-    **_units("time", {"us µs": 1e-6, "ms": 1e-3, "s sec second seconds time": 1.0, "min minutes": 60.0, "h hours": 3600.0}),
+    **_units("time", {"us µs": 1e-6, "ms": 1e-3, "s sec second seconds time sek sekunden secondes": 1.0,
+                      "min minutes minuten": 60.0, "h hours": 3600.0}),
 }
 
 
@@ -86,8 +88,9 @@ def unit_text_in(name: str) -> str:
 
 
 def unit_in(name: str) -> Optional[Unit]:
-    """The unit that unit_text_in() finds; None if there is none."""
-    return find_unit(unit_text_in(name))
+    """The unit that unit_text_in() finds; None if there is none, or if an English name begins all words with capitals."""
+    text = unit_text_in(name)
+    return None if text == "Grad" and "angle" in name.lower() else find_unit(text)
 
 
 def why_ambiguous(name: str) -> str:

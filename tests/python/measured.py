@@ -60,6 +60,11 @@ TEXTS = [
     ("test;seven\nphi;M\n0,5;20\n1;50\n", "phi [deg], M [N mm]", ""),
     # semicolons in a column of times
     ("phi [deg],M [Nmm],t\n5e-1,2e1,12:00:00;1;1\n1e0,5e1,12:00:01;1;1\n", "", ""),
+    # German and French names
+    ("Zeit [Sek.];Winkel in Grad;Drehmoment in Nmm\n1;0,5;20\n2;1;50\n", "", ""),
+    ("Zeit in s;Weg in mm;Kraft in N;Drehwinkel (Grad);Moment [Ncm]\n1;2;3;0,5;2\n2;3;4;1;5\n", "", ""),
+    ("Winkel;Drehmoment\nGrad;Ncm\n0,5;2\n1;5\n", "", ""),
+    ("Temps (s);Angle en degrés;Couple (N·m)\n1;0,5;0,02\n2;1;0,05\n", "", ""),
     # the marks of Excel: separators are said, decimal commas are in quotes, cells are empty
     ('sep=,\n"Winkel [°]","M [Nmm]",\n"0,500","20,0",\n"1,0","50,00",\n', "", ""),
     ('"angle, mean [deg]","torque, ""raw"" [N mm]"\n"0,5","20"\n"1","5,0E+01"\n', "", ""),
@@ -71,6 +76,8 @@ TEXTS = [
     ("0.5 20\n1 50\n", "1 [mm], 2 [N m]",
      "the column '1' needs a unit, deg, rad, mrad, gon or rev, in brackets behind its name"),
     ("0.5 20\n1 50\n", "1 [deg], 2 [nm]", "in brackets behind its name (nm may be N m or nanometres)"),
+    *[(f"{name};M [N mm]\n0.5;20\n1;50\n", "", "grad may be degrees, deg, or gon, of which a turn has 400")
+      for name in ("Angle [Grad]", "Winkel [grad]", "ANGLE IN GRAD")],
     ("phi,M\n0.5,20\n1,50\n", "phi [deg], T [N m]", "there is no column 'T': the columns of this file are 'phi', 'M'"),
     ("0.5 20\n1 50\n", "1 [deg], 3 [N m]", "there is no column '3': this file has 2 columns without names"),
     ("angle_deg,torque_Nmm\n0,5,20,1\n1,1,50,2\n", "",

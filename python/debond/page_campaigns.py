@@ -4,9 +4,9 @@ import os
 import re
 
 from debond.page_curve import Plot, colour
-from debond.page_data import (curve_file, curve_columns, numbers, n_rows, read_entries, read_json, read_table, rows_of, split_unit,
+from debond.page_data import (curve_columns, numbers, n_rows, read_entries, read_json, read_table, rows_of, split_unit,
                               unique, varied_in)
-from debond.page_run import columns_of, files_of, labels_of, origin_of, reference_of
+from debond.page_run import LABELS, curve_and_jumps, files_of, in_order, labels_of, machine_axes, origin_of, reference_of
 
 MOST_CURVES = 40    # more would hide each other, and make the page large
 MOST_BANDS = 8      # that can still be told apart
@@ -40,11 +40,15 @@ def chosen(items):
 
 def curves_of_study(directory, curves):
     """The curves of variants, given as directories and names."""
-    some, axes = chosen(curves), curve_columns(next(filter(None, (read_json(variant + "/summary.json") for variant, _ in curves)), {}))
-    plot = Plot(*labels_of(axes), "curves of the variants")
-    for i, (variant, name) in enumerate(some):
-        plot.add(name, "line", *columns_of(curve_file(variant), axes), colour(i, len(some)), most=20000 // len(some))
-    return with_reference(plot, axes, [directory, *(variant for variant, _ in some[:1])], len(some), len(curves), "variants")
+    some, own = chosen(curves), curve_columns(next(filter(None, (read_json(variant + "/summary.json") for variant, _ in curves)), {}))
+    several = []
+    for axes in [own, *(machine for variant, _ in some[:1] for machine in machine_axes(variant, own))]:
+        plot = Plot(*labels_of(axes), "curves of the variants")
+        for i, (variant, name) in enumerate(some):
+            xs, ys, jumps = curve_and_jumps(variant, axes)
+            plot.add(name, "line", xs, ys, colour(i, len(some)), most=20000 // len(some), jumps=jumps)
+        several.append(with_reference(plot, own, [directory, *(variant for variant, _ in some[:1])], len(some), len(curves), "variants"))
+    return in_order(several)
 
 
 def with_reference(plot, axes, directories, n_drawn, n, what):
@@ -70,7 +74,7 @@ def bands_of_ensemble(directory, table, variants):
         if len(some) <= MOST_BANDS:
             plot.band("5 to 95 %" + (f", {name}" if name else " of the members"), xs, low, high, colour(i, len(some)))
         plot.add(f"mean, {name}" if name else "mean", "line", xs, mean, colour(i, len(some)), most=20000 // len(some))
-    return with_reference(plot, axes, [directory, *variants[:1]], len(some), len(all_groups), "groups")
+    return in_order([with_reference(plot, axes, [directory, *variants[:1]], len(some), len(all_groups), "groups")])
 
 
 def warnings_of_study(rows, names):
@@ -96,14 +100,14 @@ def context_of_study(directory):
     places = [os.path.join(directory, "variant-" + row["variant"].zfill(3)) for row in rows]
     done = [(place, name) for place, name, row in zip(places, names, rows) if row.get("converged") == "true"]
     ensemble = read_table(os.path.join(directory, "ensemble.csv"))
-    curve = bands_of_ensemble(directory, ensemble, [place for place, _ in done]) if n_rows(ensemble) else \
+    curves = bands_of_ensemble(directory, ensemble, [place for place, _ in done]) if n_rows(ensemble) else \
         curves_of_study(directory, done)
     scene = next(filter(None, (read_entries(os.path.join(place, "parameters.prm")) for place in places)), {})
     title, n = scene.get("Title"), len(rows)
     return {"title": f"{title}: study of {n} variants" if title else f"Study of {n} variants in {directory}",
             "finished": len(done) == n, "reason": f"{len(done)} of {n} variants are done",
-            "warnings": warnings_of_study(rows, names), "curve": curve,
-            "statistics": read_table(os.path.join(directory, "ensemble_summary.csv")),
+            "warnings": warnings_of_study(rows, names), "curves": curves,
+            "turns": all("angle" in one["x"][0] for one in curves), "statistics": read_table(os.path.join(directory, "ensemble_summary.csv")),
             "variants": {**table, "changed": names},
             "first": ["changed"] if only_changes else entries, "entries": scene,
             "origin": origin_of(read_json(os.path.join(done[0][0], "summary.json")) if done else {}),
@@ -118,11 +122,12 @@ def fits_of(directory):
         table = read_table(os.path.join(directory, file))
         over, *others = table
         for column in [name[:-len("_measured")] for name in others if name.endswith("_measured")]:
-            x, y = ((words.replace("_", " ").capitalize(), unit) for words, unit in map(split_unit, (over, column)))
+            x, y = (LABELS.get(name) or (split_unit(name)[0].replace("_", " ").capitalize(), split_unit(name)[1])
+                    for name in (over, column))
             xs, measured, fitted, low, high = (numbers(table[name]) for name in (
                 over, *(f"{column}_{kind}" for kind in ("measured", "fitted", "lower_95", "upper_95"))))
             plot = Plot(x, y, f"fit of {column}")
-            rest = Plot(x, (f"Measured - fitted {y[0].lower()}", y[1]), f"residuals of {column}", high=150)
+            rest = Plot(x, (f"Measured - fitted {y[0][0].lower()}{y[0][1:]}", y[1]), f"residuals of {column}", high=150)
             plot.band("95 % band", xs, low, high, "#c03028")
             plot.add("measured", "points", xs, measured, "#555555")
             plot.add("fitted", "line", xs, fitted, "#c03028")
@@ -137,10 +142,20 @@ def context_of_calibration(directory):
     json = read_json(os.path.join(directory, "calibration.json"))
     title, n = json["title"], json["evaluations"]
     reason = f"{json['measured_values']} measured values, " + (f"{n} evaluations" if n else "closed form")
+    entries = read_entries(os.path.join(directory, "parameters.prm"))
     misfits = [one["curve"] for one in json["curves"] if not one["fits"]]
     problem = "failed" if json.get("failed") else "does not fit" if misfits else ""
     return {"title": f"{title}: calibration" if title else f"Calibration in {directory}", "finished": True, "problem": problem,
             "reason": f"{json.get('failed')} ({reason})" if json.get("failed") else reason,
             "warnings": unique([*json["cannot_be_told"], *json["warnings"]]), "json": json, "names": list(json["unknowns"]),
             "fits": fits_of(directory), "origin": origin_of(json, json["seconds"]),
-            "entries": read_entries(os.path.join(directory, "parameters.prm")), "files": files_of(directory)}
+            "entries": entries, "where": {name: [entry for entry, text in entries.items() if re.search(rf"<<{re.escape(name)}[:>]", text)]
+                                          for name in json["unknowns"]}, "files": files_of(directory)}
+
+
+def context_of_bench(directory):
+    """What the template bench.html shows of a published test."""
+    bench = read_json(os.path.join(directory, "bench.json"))
+    verdicts = [row["verdict"].partition(",")[0] for row in bench["rows"]]
+    return {"title": bench["title"], "bench": bench, "finished": True, "warnings": [], "origin": [], "files": files_of(directory),
+            "reason": ", ".join(f"{verdicts.count(one)} {one}" for one in dict.fromkeys(verdicts))}

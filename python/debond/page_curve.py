@@ -1,6 +1,9 @@
 """Curves of pages of results: SVG that is a picture by itself, and data from which the script of the page reads out values."""
 
 import math
+import re
+
+from debond.page_data import with_unit
 
 # the area of the data in a viewBox of width 560; text has 17 units, which are 11 px where the page is 400 px wide
 LEFT, TOP, WIDE, HIGH = 66, 30, 482, 292
@@ -54,16 +57,19 @@ class Plot:
 
     def __init__(self, x, y, about, high=HIGH):
         self.x, self.y, self.about, self.high, self.series, self.levels, self.labels = x, y, about, high, [], [], []
+        self.sign = 1
 
-    def add(self, name, kind, xs, ys, colour, most=4000, errors=()):
+    def add(self, name, kind, xs, ys, colour, most=4000, errors=(), jumps=()):
         """Adds a "line", "points", single large "marks", or a "band" between the first half of the rows and the second. Errors
-        of the ordinates are read out with them."""
-        xs, ys, *errors = finite(xs, ys, *[errors] * bool(errors))
+        of the ordinates are read out with them. A line is dashed to rows that a jump leads to: jumps has 1 for these, else 0."""
+        xs, ys, jumps, *errors = finite(xs, ys, jumps or [0] * len(xs), *[errors] * bool(errors))
         if kind == "line":
-            xs, ys, *errors = ([values[k] for k in thinned(xs, ys, most)] for values in (xs, ys, *errors))
+            rows = sorted({*thinned(xs, ys, most), *(k for j, jump in enumerate(jumps) if jump for k in (j - 1, j))})
+            xs, ys, jumps, *errors = ([values[k] for k in rows] for values in (xs, ys, jumps, *errors))
             kind = kind if len(xs) > 1 else "points"
         if xs:
-            self.series.append({"name": name, "kind": kind, "x": xs, "y": ys, "colour": colour, **{"e": one for one in errors}})
+            self.series.append({"name": name, "kind": kind, "x": xs, "y": ys, "colour": colour, "jumps": jumps,
+                                **{"e": one for one in errors}})
 
     def band(self, name, xs, lower, upper, colour):
         xs, lower, upper = finite(xs, lower, upper)
@@ -105,22 +111,41 @@ class Plot:
         left, room = 0. if 0 < left < 0.1 * right else left, 0.02 * (right - left) or 1.
         return (left - room if left < -0.5 * room else left, right + room), (low, high + gap)
 
+    def turn(self):
+        """A load along the way that goes mainly below 0, as of a push along z, is drawn along -z: from left to right."""
+        axes = [re.search(" (along|about) ([xyz])", words) for words, _ in (self.x, self.y)]
+        xs = [x for one in self.series for x in one["x"]]
+        if all(axes) and axes[0][2] == axes[1][2] and -min(xs) > max(xs):
+            self.sign = -1
+            self.x, self.y = ((re.sub("( along| about) ", r"\1 −", words), unit) for words, unit in (self.x, self.y))
+            for one in self.series:
+                one.update({axis: [-value for value in one[axis]] for axis in "xy"})
+            for one in self.levels + self.labels:
+                one.update({axis: one[axis] and -one[axis] for axis in "xy"})
+
     def context(self):
         """What the template curve.html draws; None without any data."""
         if not self.series:
             return None
+        self.turn()
         (left, right), (low, high) = limits = self.limits()
         fx, fy = WIDE / (right - left), self.high / (high - low)
         shapes = []
         for one in self.series:
             places = [f"{(x - left) * fx:.2f} {(high - y) * fy:.2f}" for x, y in zip(one["x"], one["y"])]
-            is_dots = one["kind"] in ("points", "marks")
-            path = "".join(f"M{place}h.01" for place in places) if is_dots else "M" + "L".join(places)
+            is_dots, jumps = one["kind"] in ("points", "marks"), one["jumps"]
+            path = "".join(f"M{place}h.01" if is_dots else f"{'L' if k and not jumps[k] else 'M'}{place}"
+                           for k, place in enumerate(places))
+            if one["kind"] == "marks":
+                one["name"] += f": {with_unit(one['y'][0], self.y[1])} at {with_unit(one['x'][0], self.x[1])}"
             shapes.append({**one, "path": path + "Z" * (one["kind"] == "band")})
+            if any(jumps):
+                shapes.append({**one, "name": "jump", "kind": "jump", "path": "".join(
+                    f"M{places[k - 1]}" * (not jumps[k - 1]) + f"L{places[k]}" for k in range(1, len(places)) if jumps[k])})
         # names, places and values from which the script reads out; seven digits are more than it shows
         data = {"x": limits[0], "y": limits[1], "box": (LEFT, TOP, WIDE, self.high), "units": (self.x[1], self.y[1]), "series": [
             {"name": one["name"], **{axis: [float(f"{value:.7g}") for value in one[axis]] for axis in "xye" if axis in one}}
             for one in self.series if one["kind"] in ("line", "points")]}
         return {"x": self.x, "y": self.y, "about": self.about, "shapes": shapes, "levels": self.levels, "data": data,
-                "labels": self.placed_labels(lambda x: (x - left) * fx, lambda y: (high - y) * fy),
+                "sign": self.sign, "labels": self.placed_labels(lambda x: (x - left) * fx, lambda y: (high - y) * fy),
                 "ticks": (ticks(left, right), ticks(low, high, most=7 * self.high / HIGH)), "many": False, "drawn": 0, "of": 0}

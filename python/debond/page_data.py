@@ -10,8 +10,12 @@ from debond.errors import InputError
 
 CHANCE = "Interface / Bonding / Seed"  # a study over it is an ensemble
 #: Ends of the names of columns and members, and their units.
-UNITS = (("_Nmm_per_rad", "N mm/rad"), ("_MPa_per_mm", "MPa/mm"), ("_N_per_m", "N/m"), ("_Nmm", "N mm"), ("_MPa", "MPa"),
+UNITS = (("_Nmm_per_rad", "N mm/rad"), ("_MPa_per_mm", "MPa/mm"), ("_N_per_m", "N/m"), ("_N_per_mm", "N/mm"), ("_Nmm_per_deg", "N mm/°"),
+         ("_mJ", "mJ"), ("_Nmm", "N mm"), ("_MPa", "MPa"),
          ("_deg", "°"), ("_mm2", "mm²"), ("_mm", "mm"), ("_MB", "MB"), ("_N", "N"))
+
+#: Over what a machine with a spring shows the place of the chuck, and the load along it.
+MACHINES = {"angle_deg": ("machine_angle_deg", "torque_Nmm"), "chuck_uz_mm": ("machine_uz_mm", "chuck_Fz_N")}
 
 #: What `auto` stands for, but for what Accuracy chooses.
 USUAL = {"Bone / Cells": "15, 15, 2", "Implant / Cells": "3, 2", "Load steps / Steps": "1, 1000", "Load steps / Adaptive": "false",
@@ -64,6 +68,16 @@ def curve_columns(summary):
     """The columns of the curve that a run is about: what it is drawn over, and the load."""
     curve = summary.get("curve") or {"over": "angle_deg", "load": "torque_Nmm"}
     return curve["over"], curve["load"]
+
+
+def machine_compliance(directory, over):
+    """What the machine shows more than the chuck, by the load along that, from the row with the largest [deg/(N mm) or mm/N];
+    0 of a rigid machine."""
+    table = read_table(rows_file(directory))
+    machine, load = MACHINES.get(over, ("", ""))
+    rows = zip(*(numbers(table.get(name, [])) for name in (machine, over, load)))
+    shown, place, load = max(rows, key=lambda row: abs(row[2]), default=(0, 0, 0))
+    return (shown - place) / load if load and shown != place else 0
 
 
 def n_rows(table):

@@ -5,7 +5,8 @@ import math
 import struct
 import zlib
 
-from debond.page_data import n_rows, number, numbers, read_table, short, with_unit
+from debond.page_curve import ticks
+from debond.page_data import n_rows, numbers, read_table, short, with_unit
 
 # colour maps from the lowest value to the highest, of each quantity the one that it has in all pictures of debond
 VIRIDIS = ("#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725")
@@ -33,6 +34,11 @@ class Grid:
         self.nx, self.ny = len(set(xs)), len(set(ys))
         self.half_x, self.half_y = ((max(places) - min(places)) / 2 * n / (n - 1) for places, n in ((xs, self.nx), (ys, self.ny)))
         self.xs, self.ys = xs, ys
+
+    def bar(self):
+        """The text of a bar with a round length, and its share [%] of the width."""
+        length, text = ticks(0, 2 * self.half_x, most=4)[1]
+        return f"{text} mm", f"{50 * length / self.half_x:.4g}"
 
     def is_round(self, values):
         """Whether there are values at all places in a circle, and only there."""
@@ -109,17 +115,16 @@ def png(lines, palette):
                                         struct.pack(">I", zlib.crc32(kind + content)) for kind, content in chunks)).decode()
 
 
-def maps_of(path, without=()):
+def maps_of(path, places, without=()):
     """What the page shows of maps.csv, which has rows for each event: for each quantity its pictures, and in words the maps
-    that need none; not of some columns."""
+    that need none; not of some columns. places: {step: that of the chuck, with its unit}."""
     table = read_table(path)
     if not n_rows(table):
         return []
-    events = list(dict.fromkeys(zip(table["event"], table["angle_deg"], table["time"])))
+    events = list(dict.fromkeys(zip(table["event"], table["step"], table["time"])))
     size = n_rows(table) // len(events)
     grid = Grid(*(numbers(table[name][:size]) for name in ("x_mm", "y_mm")))
-    turns = any(number(angle) for _, angle, _ in events)
-    places = [(f"{short(angle, 3)}°" if turns else f"time {short(time)}", event) for event, angle, time in events]
+    places = [(places.get(step, f"time {short(time)}"), event) for event, step, time in events]
     result = []
     for name, *about in QUANTITIES:
         if name in table and name not in without:
@@ -158,7 +163,7 @@ def maps_of_quantity(grid, places, maps, words, unit, colours, least, most):
     return {"words": words, "unit": unit, "figures": figures, "notes": notes,
             "low": short(least, 3), "high": with_unit(most, unit, 3),
             "gradient": ", ".join(palette[254 * k // 32] for k in range(33 if palette else 0)),
-            "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}",
+            "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}", "bar": grid.bar(),
             "events": [f"{place}: {event}" for place, event in places], "states": []}
 
 
@@ -175,4 +180,4 @@ def maps_of_states(grid, places, maps):
     met = sorted({int(value) for values in maps for value in values if value == value})
     return {"words": "State", "unit": "", "figures": figures,
             "notes": [*notes, "A cell of one colour is the area of a quadrature point."], "events": [],
-            "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}", "states": [STATES[k] for k in met]}
+            "ratio": f"{grid.half_x:.6g} / {grid.half_y:.6g}", "bar": grid.bar(), "states": [STATES[k] for k in met]}

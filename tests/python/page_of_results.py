@@ -89,15 +89,16 @@ def is_near(a, b, tolerance):
     return abs(float(a) - float(b)) <= tolerance
 
 
-def curve_is_that_of(text, rows, x, y):
-    """Whether data and picture are these columns."""
-    data, line = curves(text)[0], paths(text, "line")[0]
+def curve_is_that_of(text, rows, x, y, which=0, sign=1):
+    """Whether data and picture are these columns, of the curve with this number on the page; sign -1: with the other sign."""
+    data, line = curves(text)[which], paths(text, "line")[which]
+    rows = [{name: sign * float(row[name]) for name in (x, y)} for row in rows]
     series = next(one for one in data["series"] if one["name"] == "debond")
     check(len(series["x"]) == len(line) == len(rows),
           f"{len(rows)} rows, but {len(series['x'])} values and {len(line)} places")
     (left, right), (low, high) = data["x"], data["y"]
     for i, row in enumerate(rows):
-        check(math.isclose(series["x"][i], float(row[x]), rel_tol=1e-6) and
+        check(math.isclose(series["x"][i], float(row[x]), rel_tol=1e-6, abs_tol=1e-12) and
               math.isclose(series["y"][i], float(row[y]), rel_tol=1e-6),
               f"row {i} of {y} over {x}: {row[x]}, {row[y]}, but read out is {series['x'][i]}, {series['y'][i]}")
         at, up = line[i][0] / data["box"][2], 1 - line[i][1] / data["box"][3]
@@ -146,6 +147,7 @@ def test_run(directory):
         value = summary[name]
         said = said.format(f"{value:.4g}" if value < 1e4 else round(value))
         check(said in seen, f"the page does not say: {said}")
+    check(seen.index("Energies") < seen.index("Contact face"), "energies are not beside the results")
     for remark in summary["remarks"] + summary["warnings"]:
         check(seen.count(remark) == 1, f"said {seen.count(remark)} times: {remark}")
     for said in ("finished", "reference Tₘₐₓ = 53.8 N mm", "reference T∞ = 36.8 N mm", "coin, radius 2.5 mm, height 3 mm",
@@ -211,7 +213,13 @@ def test_maps(directory, text):
                 flat = sum(a == b for a, b in zip(across, across[1:]))
                 check(flat < n // 4, f"{flat} of {n} pixels across the face are as those beside them")
             check(lines[n // 2][n // 2] < 25 and min(rim) > 200, "the sliding distance is not that of a rotation")
-    states = re.findall(r'(?s)src="data:image/png;base64,([^"]*)">\s*<figcaption>(.*?)</figcaption>', text.split("<h3>State</h3>")[1])
+    places = sorted({float(row["x_mm"]) for row in table(f"{directory}/maps.csv")})
+    for share, length in re.findall(r'<i style="width: (.*?)%"></i>(.*?) mm<', text):
+        width = (places[-1] - places[0]) * len(places) / (len(places) - 1)
+        check(is_near(float(share) / 100 * width, length, 1e-3 * width), f"{length} mm are {share} % of {width} mm")
+    check(text.count('class="length"') == text.count("<figcaption>"), "a map without a scale")
+    states = re.findall(r'(?s)src="data:image/png;base64,([^"]*)">\s*<div class="length">[^\n]*\s*<figcaption>(.*?)</figcaption>',
+                        text.split("<h3>State</h3>")[1])
     for image, caption in states:
         lines, known = pixels(image)[0], values["state", caption.split(": ", 1)[1]]
         drawn_states = [value for line in lines[::-1] for value in line]
@@ -317,6 +325,8 @@ def test_others():
     curve_is_that_of(text, table("pull/reactions.csv"), "chuck_ux_mm", "chuck_Fx_N")
     check("Force along x [N]" in text and "Displacement along x [mm]" in text, "axes of a pull")
     check("largest torque" not in text, "the noise of a torque is shown")
+    test_push()
+    test_machine()
     simulate("closed", "Model=foundation")
     text = page("closed")
     check("Contact face</h2>" not in text, "a closed form has maps")
@@ -335,6 +345,37 @@ def test_others():
         with open("at_work/torque.csv", "w") as file:
             file.write(rows)
         page("at_work")
+
+
+def test_push():
+    """A push runs from left to right, and its events have places in mm."""
+    simulate("push", "Chuck/Rotation z/Value=0", "Load steps/Times=0, 1", "Load steps/Steps=5")
+    text, rows = page("push"), table("push/reactions.csv")
+    curve_is_that_of(text, rows, "chuck_uz_mm", "chuck_Fz_N", sign=-1)
+    seen, load = words(text), -float(rows[-1]["chuck_Fz_N"])
+    check(load > 0 and curves(text)[0]["x"][0] >= -1e-6, "the curve of a push begins at the right")
+    for said in ("Force along −z [N]", "Displacement along −z [mm]", f"largest force along −z {load:.4g} N at 0.0049 mm",
+                 f"largest: {load:.4g} N at 0.0049 mm", "0.0049 mm: end"):
+        check(said in seen, f"the page of a push does not say: {said}")
+
+
+def test_machine():
+    """Over the angle of a soft machine first, then over that of the implant; dashed to the row with more released energy."""
+    simulate("machine", "Chuck/Rotation z/Stiffness=3000", "Interface/Characteristic slip distance=0.005", "Bone/Material=rigid",
+             "Interface/Transition factor=0.3", "Implant/Material=rigid")
+    text, rows = page("machine"), table("machine/torque.csv")
+    for which, x in enumerate(("machine_angle_deg", "angle_deg")):
+        curve_is_that_of(text, rows, x, "torque_Nmm", which)
+        released = [float(row["released_energy_Nmm"]) for row in rows]
+        jumps = [i for i in range(1, len(rows)) if released[i] > released[i - 1]]
+        line = paths(text, "line")[which]
+        check(len(jumps) == 1 and paths(text, "jump")[which] == [line[jumps[0] - 1], line[jumps[0]]], "a jump is not dashed")
+        drawn = re.findall('<path class="line" [^>]*d="([^"]*)"><title>', text)[which]
+        check([match.start() for match in re.finditer("M", drawn)] == [0, drawn.index(f"M{line[jumps[0]][0]:.2f} ")],
+              "a jump is drawn, too")
+    for said in ("Rotation angle of the machine [°]", "Rotation angle of the implant [°]", "Show over rotation angle of the implant"):
+        check(said in words(text), f"the page of a soft machine does not say: {said}")
+    check(text.count("<div hidden>") == 1, "both axes are seen at once")
 
 
 def test_campaigns():
@@ -372,7 +413,7 @@ def test_calibration():
         results = json.load(file)
     seen, one = words(text), results["unknowns"]["a_s"]
     for said in ("A <coin> & bone: calibration", "Output / Reference curve run/torque.csv",
-                 f"a_s {one['value']:.5g} {one['lower_95']:.5g} to {one['upper_95']:.5g} mm",
+                 f"a_s Interface / Characteristic slip distance {one['value']:.5g} {one['lower_95']:.5g} to {one['upper_95']:.5g} mm",
                  "Angle offset 0.001 deg given", f"{results['correlations']['a_s | mu_b']:.2g}"):
         check(said in seen, f"the page of a calibration does not say: {said}")
     fit = table("calibration/fit.csv")
@@ -393,7 +434,7 @@ def test_calibration():
     with open("calibration/calibration.json", "w") as file:
         json.dump(results, file)
     seen = words(page("calibration"))
-    for said in (f"mu_b {results['unknowns']['mu_b']['value']:.5g} cannot be told", "torque_Nmm AR(1) 1.23 % 0.9 100 12.5",
+    for said in (f"mu_b Interface / Friction coefficient broken {results['unknowns']['mu_b']['value']:.5g} cannot be told", "torque_Nmm AR(1) 1.23 % 0.9 100 12.5",
                  "Bone / Young modulus 18000 MPa 10 % -1.2 %"):
         check(said in seen, f"the page of a calibration does not say: {said}")
     check(seen.count("the same") == 1 and "another" in seen, "warnings of a calibration")

@@ -6,8 +6,12 @@ tau^2 is that of restricted maximum likelihood, which for few specimens is less 
 (Viechtbauer, Journal of Educational and Behavioral Statistics 30 (2005) 261-293). The interval of mu is that of Hartung and
 Knapp (Statistics in Medicine 20 (2001) 3875-3889), with Student's t and never narrower than the s_i say: with few specimens
 intervals from the normal distribution are too narrow (IntHout et al., BMC Medical Research Methodology 14 (2014) 25).
+
+Differences of groups are those of plain means. What values do not tell well is a part of their scatter, so intervals hold
+without knowing it; with weights from few uncertain s_i they hold less often than they say (tests/python/groups.py draws both).
 """
 
+import itertools
 from dataclasses import dataclass
 
 import numpy
@@ -53,3 +57,105 @@ def pool(y, sd) -> Pooled:
     scatter = w @ (y - mu) ** 2 / (n - 1)
     half = stats.t.ppf(0.975, n - 1) * numpy.sqrt(max(1.0, scatter) / w.sum())
     return Pooled(n, mu, mu - half, mu + half, numpy.sqrt(tau_squared))
+
+
+def _restricted(roots, y, X, parts):
+    """Minus the log of the restricted likelihood of y ~ N(X b, V), V = sum_k roots_k^2 parts_k, and its derivatives by the roots."""
+    theta = roots**2 + 1e-9
+    W = numpy.linalg.inv(numpy.tensordot(theta, parts, 1))
+    G = X.T @ W @ X
+    P = W - W @ X @ numpy.linalg.solve(G, X.T @ W)
+    Py = P @ y
+    minus_log = 0.5 * (numpy.linalg.slogdet(G)[1] - numpy.linalg.slogdet(W)[1] + y @ Py)
+    return minus_log, roots * (numpy.einsum("kij,ij->k", parts, P) - parts @ Py @ Py)
+
+
+def _mixed(y, groups, animals):
+    """Means of groups (G) with the animal as random effect, and what _contrast() needs of them: y_i = m_group + u_animal + e_i, with
+    the variance of u common and that of e each group's own, by restricted maximum likelihood. y, groups (0 ... G - 1), animals:
+    of n values. With their covariance of Kenward and Roger (Biometrics 53 (1997) 983-997): with few animals the one that takes
+    the variances as known is too small."""
+    X = numpy.equal.outer(groups, numpy.arange(max(groups) + 1)).astype(float)
+    parts = numpy.array([*map(numpy.diag, X.T), numpy.equal.outer(animals, animals)], dtype=float)
+    scatter = numpy.array([numpy.var(y[groups == group], ddof=1) for group in range(X.shape[1])])
+    scale = scatter.mean() ** 0.5 or 1.0
+    y, start = y / scale, numpy.sqrt(numpy.append(scatter, scatter.mean()) / 2) / scale
+    theta = optimize.minimize(_restricted, start, (y, X, parts), jac=True, method="BFGS").x ** 2 + 1e-9
+    W = numpy.linalg.inv(numpy.tensordot(theta, parts, 1))
+    Phi, A = numpy.linalg.inv(X.T @ W @ X), W @ X
+    PV, VA = (W - A @ Phi @ A.T) @ parts, parts @ A
+    of_theta = numpy.linalg.pinv(0.5 * numpy.einsum("aij,bji->ab", PV, PV))  # covariance of the variances
+    D = A.T @ VA
+    more = numpy.einsum("ab,anp,nm,bmq->pq", of_theta, VA, W, VA, optimize=True) - numpy.einsum(
+        "ab,apr,rs,bsq->pq", of_theta, D, Phi, D, optimize=True)
+    return scale * Phi @ A.T @ y, scale**2 * (Phi + 2 * Phi @ more @ Phi), (scale**2 * Phi, scale**2 * Phi @ D @ Phi, of_theta)
+
+
+def _independent(y, groups):
+    """The same of groups without a common animal. With this _contrast() is the test of Welch."""
+    counts = numpy.bincount(groups)
+    scatter = numpy.array([numpy.var(y[groups == group], ddof=1) for group in range(len(counts))])
+    Phi = numpy.diag(scatter / counts)
+    slopes = numpy.array([numpy.diag(row) for row in numpy.diag(1 / counts)])
+    return numpy.bincount(groups, y) / counts, Phi, (Phi, slopes, numpy.diag(2 * scatter**2 / (counts - 1)))
+
+
+def _contrast(c, covariance, known):
+    """Variance of c times the means, and the quantile for 95 % of Student's t with the degrees of freedom of Satterthwaite."""
+    Phi, slopes, of_theta = known
+    by_theta = slopes @ c @ c
+    freedom = 2 * (c @ Phi @ c) ** 2 / max(by_theta @ of_theta @ by_theta, 1e-300)
+    return c @ covariance @ c, stats.t.ppf(0.975, max(1.0, freedom))
+
+
+def _ratio(c, means, covariance, known):
+    """Of the mean that c counts positive over the other one, and its interval by Fieller (J. R. Stat. Soc. B 16 (1954) 175-185): all
+    r such that a - r b may be 0. NaN where a mean is not positive; without ends where b may be 0."""
+    (a, b), at = (means[c > 0][0], means[c < 0][0]), [numpy.flatnonzero(c > 0)[0], numpy.flatnonzero(c < 0)[0]]
+    if min(a, b) <= 0:
+        return numpy.nan, numpy.nan, numpy.nan
+    _, t = _contrast(numpy.where(c < 0, -a / b, c), covariance, known)
+    (aa, ab), (_, bb) = t**2 * covariance[numpy.ix_(at, at)]
+    square = (a * b - ab) ** 2 - (a**2 - aa) * (b**2 - bb)
+    if b**2 <= bb or square < 0:
+        return a / b, numpy.nan, numpy.nan
+    return a / b, *((a * b - ab + sign * square**0.5) / (b**2 - bb) for sign in (-1, 1))
+
+
+def compare_groups(y, groups, animals=None):
+    """Means of groups and differences of each two, as lists of dictionaries, in the order in which groups come.
+
+    y (n): values; groups, animals (n): names, None for an animal of its own. Values of one animal in a group count as their
+    mean: it is animals that scatter. lower_95 and upper_95 of a mean are those of Student's t. `minus` is the group that comes
+    first. NaN: one animal does not tell."""
+    cells = {}
+    for i, (value, group) in enumerate(zip(y, groups)):
+        animal = (i,) if animals is None or animals[i] is None else animals[i]
+        cells.setdefault(group, {}).setdefault(animal, []).append(value)
+    means, used = [], []
+    for group, own in cells.items():
+        each, n = numpy.array([numpy.mean(values) for values in own.values()]), len(own)
+        sd = each.std(ddof=1) if n > 1 else numpy.nan
+        half = stats.t.ppf(0.975, n - 1) * sd / n**0.5 if n > 1 else numpy.nan
+        means.append({"group": group, "values": sum(map(len, own.values())), "animals": n, "mean": each.mean(), "sd": sd,
+                      "lower_95": each.mean() - half, "upper_95": each.mean() + half})
+        used += [(value, group, animal) for value, animal in zip(each, own)] if n > 1 else []
+    return means, _differences(used) if used else []
+
+
+def _differences(used):
+    """Of (value, group, animal), each group with two animals or more."""
+    values, names, animals = zip(*used)
+    known_names, known_animals = list(dict.fromkeys(names)), {animal: i for i, animal in enumerate(dict.fromkeys(animals))}
+    y, groups, animals = numpy.array(values), numpy.array([*map(known_names.index, names)]), [known_animals[one] for one in animals]
+    repeat = len(known_animals) < len(animals)
+    means, covariance, known = _mixed(y, groups, animals) if repeat else _independent(y, groups)
+    rows = []
+    for first, second in itertools.combinations(range(len(known_names)), 2):
+        c = numpy.bincount([second], minlength=len(means)) - numpy.bincount([first], minlength=len(means))
+        variance, t = _contrast(c, covariance, known)
+        difference, half = c @ means, t * variance**0.5
+        rows.append({"group": known_names[second], "minus": known_names[first], "difference": difference,
+                     "lower_95": difference - half, "upper_95": difference + half,
+                     **dict(zip(("ratio", "ratio_lower_95", "ratio_upper_95"), _ratio(c, means, covariance, known)))})
+    return rows

@@ -204,6 +204,8 @@ class Scene:
         for run in self.runs:
             if not (run.own or self.expected or run.stop):
                 raise Problem(f'nothing is expected of the run {run.name}')
+        if self.expected and all(run.own or run.stop for run in self.runs):
+            raise Problem('what is expected before the first run is asked of none: each has its own')
 
     def read(self, keyword, name, text):
         text = re.sub(r'\s\s+\(.*', '', text)

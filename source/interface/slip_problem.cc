@@ -312,13 +312,16 @@ namespace Debond
 
 
   // The step of Newton's method within an element. Parameters at a side beyond
-  // which it leads stay, and the other one has a step of its own.
+  // which it leads stay, and the other one has a step of its own. In the
+  // parts of a thin triangle what vanishes at the solution would lead steps
+  // round in circles.
   SlipProblem::ElementStep
   SlipProblem::step_in_element(const NurbsSurface::Place &place)
   {
     const auto            box   = surface.element_bounds(place.element);
     const SlipEquations  &e     = *equations;
-    const Eigen::Matrix2d slope = along_surface().h;
+    const Eigen::Matrix2d slope =
+      along_surface().h - e.bend_of_tangential_excess();
     ElementStep           result{-slope.inverse() * e.h};
     for (unsigned int d = 0; d < 2; ++d)
       result.beyond[d] = (place.xi[d] <= box[0][d] && result.step[d] < 0.) ||

@@ -94,6 +94,12 @@ namespace Debond
     /** With respect to the two parameters of the surface: for this point. */
     Derivative<2>
     along_surface() const;
+    /** What of dh/dxi_hat vanishes with h: the excess along the surface. */
+    Eigen::Matrix2d
+    bend_of_tangential_excess() const
+    {
+      return bend(excess - normal.n.dot(excess) * normal.n);
+    }
     /** Traction, distance and h by the damage of the share that is held. */
     Derivative<1>
     along_damage() const;

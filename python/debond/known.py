@@ -45,15 +45,21 @@ def _changed_number(entry, text):
     return f"{percent:+} %", ", ".join(repr((1 + 0.01 * percent) * one) for one in known)
 
 
+def changes_of_model(experiment, held):
+    """(entry, value, unit, change in words, its new text) of numbers of the model but for the entries `held`. `experiment`: its values
+    and what its curve is over, a CurveColumn, are read."""
+    values = experiment.values
+    return [(entry, text, _unit_of(entry, values), *change) for entry, text in values.items()
+            if _NUMBERS.match(entry) and entry not in held and not _moves_along(experiment, entry)
+            for change in [_changed_number(entry, given(text))] if change]
+
+
 def _changes(fit):
-    """(entry, value, unit, change in words, its new text) of what is taken as known. Small ones, as their effect is linearised."""
+    """The same of all that is taken as known. Small ones, as their effect is linearised."""
     problem = fit.problem
     experiment = problem.done[0]
     values, held = experiment.values, set().union(*(problem.unknowns.entries(e.number, fit.values) for e in problem.done))
-    result = []
-    for entry, text in values.items():
-        if _NUMBERS.match(entry) and entry not in held and not _moves_along(experiment, entry):
-            result += [(entry, text, _unit_of(entry, values), *change) for change in [_changed_number(entry, given(text))] if change]
+    result = changes_of_model(experiment, held)
     for name, size, part in _changes_of_rig(fit, experiment):
         entry = entry_of(name)
         if entry not in held:

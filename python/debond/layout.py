@@ -2,6 +2,7 @@
 called. measured.py says what is understood."""
 
 import csv
+import functools
 import re
 import sys
 from collections import Counter
@@ -35,6 +36,7 @@ def with_plain_marks(text: str) -> str:
     return re.sub(f"[{_BLANKS}]", " ", text).translate(_MARKS)
 
 
+@functools.lru_cache(100000)  # instruments repeat themselves
 def value_of(item: str):
     """The number that `item` is, with a decimal point or comma, or an exponent of Fortran; None if it is none."""
     if not _NUMBER.fullmatch(item):
@@ -46,6 +48,7 @@ def value_of(item: str):
     return value if abs(value) < 9.9e37 else None
 
 
+@functools.lru_cache(100000)
 def _kind(item: str) -> str:
     """"number", "nothing", "time" (a date or a time of day) or "text"."""
     return ("number" if value_of(item) is not None else "nothing" if _NOTHING.fullmatch(item) else
@@ -96,6 +99,23 @@ def _shape_of(items):
     return "".join({"time": "t", "text": "x"}.get(kind, "n") for kind in kinds) if kinds.count("number") >= 2 else ""
 
 
+def refuse_thousands(rows, separator, refuse):
+    """Of decimal points and commas in rows, (line, items), one may separate thousands."""
+    marked = [(number, item) for number, items in rows for item in items
+              if ("," in item or "." in item) and value_of(item) is not None]
+    with_comma = [(number, item) for number, item in marked if "," in item]
+    if not with_comma:
+        return
+    with_point = next((number for number, item in marked if "." in item), None)
+    what_to_do = ": write decimals in one way, and thousands without a separator"
+    if with_point:
+        refuse(f"line {with_point} has a number with a point and line {with_comma[0][0]} one with a comma{what_to_do}")
+    # semicolons go with decimal commas
+    if separator != ";" and all(re.fullmatch("[-+]?[1-9][0-9]{0,2},[0-9]{3}", item) for _, item in with_comma):
+        refuse(f"the comma in numbers, as in line {with_comma[0][0]}, may be that of decimals or of thousands"
+               f"{what_to_do}; semicolons between the columns go with decimal commas")
+
+
 class Table:
     """The table in a text: where it begins, what separates its items, how its columns are called.
 
@@ -111,7 +131,7 @@ class Table:
         self.n_columns = len(shape)
         self._read_rows([(number, split(line, self.separator)) for number, line in lines], shape)
         self._refuse_decimal_commas()
-        self._refuse_thousands()
+        refuse_thousands(self.rows, self.separator, self.refuse)
 
     @property
     def width(self):
@@ -215,23 +235,6 @@ class Table:
         if not self.names and self.n_columns > 2 and all(are_whole):
             self.refuse(f"line {first} and all others hold whole numbers only{what_to_do}, else write the names of the "
                         "columns above")
-
-    def _refuse_thousands(self):
-        """Of decimal points and commas one may separate thousands."""
-        marked = [(number, item) for number, items in self.rows for item in items
-                  if ("," in item or "." in item) and value_of(item) is not None]
-        with_comma = [(number, item) for number, item in marked if "," in item]
-        if not with_comma:
-            return
-        with_point = next((number for number, item in marked if "." in item), None)
-        what_to_do = ": write decimals in one way, and thousands without a separator"
-        if with_point:
-            self.refuse(f"line {with_point} has a number with a point and line {with_comma[0][0]} one with a comma"
-                        f"{what_to_do}")
-        # semicolons go with decimal commas
-        if self.separator != ";" and all(re.fullmatch("[-+]?[1-9][0-9]{0,2},[0-9]{3}", item) for _, item in with_comma):
-            self.refuse(f"the comma in numbers, as in line {with_comma[0][0]}, may be that of decimals or of thousands"
-                        f"{what_to_do}; semicolons between the columns go with decimal commas")
 
     def described(self):
         """The columns that there are, for messages."""

@@ -3,8 +3,8 @@
 import math
 import os
 
-from debond.page_curve import ticks
-from debond.page_data import number, read_json, read_table, rows_of
+from debond.page_curve import Plot, colour, ticks
+from debond.page_data import number, read_json, read_table, rows_of, short, with_unit
 from debond.page_run import files_of, origin_of
 
 ALL = "all"
@@ -51,7 +51,7 @@ def forest_of(unknown, parameters, pooled):
     def line(name, row, kind):
         value, is_told = row["value" if kind == "one" else "mean"], row.get("told", "true") == "true"
         ends = [place(row[end]) if is_told else None for end in ("lower_95", "upper_95")]
-        return {"text": name, "kind": kind, "value": value, "at": place(value), "row": row,
+        return {"text": name, "kind": kind, "value": value, "at": place(value), "row": row, "is_told": is_told,
                 "ends": None if None in ends or ends[0] == ends[1] else ends}
 
     lines = []
@@ -63,10 +63,59 @@ def forest_of(unknown, parameters, pooled):
             "ticks": [(share(value), text) for value, text in marks]}
 
 
+def dots_of(unknown, values, means):
+    """The same of groups: a line with the values of each, (group, value), and below it the mean."""
+    own = [row for row in means if row["unknown"] == unknown]
+    ends = [number(row[name]) for row in own for name in ("mean", "lower_95", "upper_95")]
+    share, marks = _axis([value for _, value in values], list(filter(math.isfinite, ends)), False)
+    lines = []
+    for row in own:
+        interval = [share(number(row[end])) for end in ("lower_95", "upper_95")] if short(row["lower_95"]) else None
+        lines += [{"text": row["group"], "kind": "dots", "value": "", "at": None, "row": row, "ends": None, "is_told": True,
+                   "dots": [share(value) for group, value in values if group == row["group"]]},
+                  {"text": "mean", "kind": "mean", "value": row["mean"], "at": share(number(row["mean"])), "row": row, "is_told": True,
+                   "ends": interval and [min(1.0, max(0.0, end)) for end in interval]}]
+    return {"unknown": unknown, "unit": own[0]["unit"], "lines": lines, "ticks": [(share(value), text) for value, text in marks]}
+
+
+def difference_in_words(row):
+    """"etched minus machined: 12.3 N mm (3.1 to 21.5); 1.1 times (1.02 to 1.19)", of what is known."""
+    def words(name, unit, *ends):
+        ends = [short(row[end], 3) for end in ends]
+        return [with_unit(row[name], unit, 3) + (f" ({' to '.join(ends)})" if all(ends) else " (interval cannot be told)")] * bool(short(row[name]))
+
+    difference = words("difference", row["unit"], "lower_95", "upper_95")
+    return f"{row['group']} {'minus' if difference else 'over'} {row['minus']}: " + "; ".join(
+        [*difference, *words("ratio", "times", "ratio_lower_95", "ratio_upper_95")])
+
+
+def context_of_groups(directory):
+    """What the template groups.html shows."""
+    means, differences = (rows_of(read_table(os.path.join(directory, name))) for name in ("groups.csv", "differences.csv"))
+    about = read_json(os.path.join(directory, "groups.json"))
+    unknowns = list(dict.fromkeys(row["unknown"] for row in means))
+    return {"title": f"Groups of {about['table']}", "finished": True, "problem": "", "reason": f"by {about['by']}", "warnings": [],
+            "forests": [dots_of(name, [own[1:] for own in about["values"] if own[0] == name], means) for name in unknowns],
+            "means": means, "differences": differences, "unknowns": unknowns, "notes": about["notes"],
+            "origin": origin_of(about), "files": files_of(directory)}
+
+
+def _plot_of_peaks(peaks, parameters):
+    """The peak over the unknown, of each set of entries, and the specimens."""
+    plot = Plot((peaks["unknown"], peaks["unit"]), ("Peak", peaks["load_unit"]), "the peak over " + peaks["unknown"] + ", and specimens")
+    sets = peaks["peaks"]
+    for i, own in enumerate(sets):
+        plot.add("model" if i == 0 else "", "line", peaks["values"], own, colour(1, 2) if len(sets) == 1 else colour(i, max(13, len(sets))))
+    rows = [row for row in parameters if row["peak"]]
+    plot.add("specimens", "marks", *([number(row[name]) for row in rows] for name in ("value", "peak")), colour(0, 2))
+    return plot.context()
+
+
 def context_of_specimens(directory):
     """What the template specimens.html shows."""
     parameters, pooled = (rows_of(read_table(os.path.join(directory, name))) for name in ("parameters.csv", "pooled.csv"))
     about = read_json(os.path.join(directory, "specimens.json"))
+    peaks = about.get("peaks") or {}
     names, failed = list(dict.fromkeys(row["specimen"] for row in parameters)), about.get("failures") or {}
     unknowns = list(dict.fromkeys(row["unknown"] for row in parameters if row["unknown"]))
     of_specimens = {name: [row for row in parameters if row["specimen"] == name] for name in names}
@@ -77,11 +126,12 @@ def context_of_specimens(directory):
     return {"title": f"{title}: {n} specimens" if title else f"{n} specimens in {directory}", "finished": True, "problem": problem,
             "reason": f"{n - len(failed)} of {n} specimens are fitted" + (
                 f"; the model does not fit {len(misfits)} of them" if misfits else ""),
-            "warnings": [f"{name}: {why}" for name, why in failed.items()],
+            "warnings": [f"{name}: {why}" for name, why in failed.items()] + peaks.get("warnings", []),
             "specimens": of_specimens, "failed": failed,
             "with_page": [name for name in names if os.path.exists(os.path.join(directory, name, "report.html"))],
             "unknowns": [(name, units[name]) for name in unknowns],
             "forests": list(filter(None, (forest_of(unknown, parameters, pooled) for unknown in unknowns))),
-            "pooled": pooled, "n_left_out": sum(int(row["left_out"]) for row in pooled if row["group"] == ALL),
+            "pooled": pooled, "differences": rows_of(read_table(os.path.join(directory, "differences.csv"))), "n_left_out": sum(int(row["left_out"]) for row in pooled if row["group"] == ALL),
+            "peaks": peaks, "curve": peaks and _plot_of_peaks(peaks, parameters),
             "has_groups": any(row["group"] for row in parameters),
             "origin": origin_of(about), "files": files_of(directory)}

@@ -6,42 +6,52 @@
 Columns: `specimen`, its name, which a directory gets; `curve`, the file of what was measured; `group`, if there are several;
 any entry of the scene, with the value that this specimen has, in the entry's unit. A field that is empty leaves that of the
 template. Files are named relative to the table. Semicolons, tabs or commas separate; lines that begin with # are comments.
+In the place of `curve` there may be a column with a unit of moment or force in its name, the largest load of each specimen, "peak
+[N cm]", and another one whose name says SD or error, with the standard deviation of its error. `animal`, if there are several
+specimens of one, makes groups be compared by animals.
 """
 
 import difflib
 import os
 import re
 from dataclasses import dataclass
-from typing import Dict, List
+from typing import Dict, List, Optional
 
 import _debond
 
 from .errors import InputError, shortened
-from .layout import filled, split, value_of, with_plain_marks
+from .layout import filled, refuse_thousands, remark_on, split, value_of, with_plain_marks
 from .measured import texts_of
+from .units import unit_in, unit_text_in
 from .unknowns import Unknowns
 from .variants import Variant, variants_of
 
-OWN = ("specimen", "curve", "group")
+OWN = ("specimen", "curve", "group", "animal")
 ALL = "all"  # what the mean of all groups is called
 _NOT_HERE = ("Task", "Output / Directory", "Output / Reference curve")
-FILES = ("parameters.csv", "pooled.csv", "specimens.json", "report.html")  # beside the directories of specimens
+FILES = ("parameters.csv", "pooled.csv", "differences.csv", "specimens.json", "report.html")  # beside the directories of specimens
+_OF_ERRORS = re.compile(r"(?<![a-z])(sd|s\.d\.|std|stdev|standard deviation|error|uncertainty|standardabweichung|fehler|unsicherheit)"
+                        "(?![a-z])|±", re.I)
 _NAME = re.compile(r"[^\W_][^/\\:*?\"<>|\x00-\x1f]{0,99}")
 
 
 @dataclass
 class Specimen:
-    """A row of the table. curve: as it stands there; entries: {full name: text}, files among them found."""
+    """A row of the table. curve: as it stands there; entries: {full name: text}, files among them found. peak and sd of its error
+    [N mm or N], in the place of a curve; None: the table does not say it."""
 
     name: str
     group: str
     curve: str
     entries: Dict[str, str]
     place: str  # "specimens.csv: line 3", for messages
+    peak: Optional[float] = None
+    sd: Optional[float] = None
+    animal: str = ""
 
 
-def _lines_of(filename):
-    """(what the line is called, its items) of all lines that are not empty; and whether commas may be those of decimals."""
+def lines_of(filename, expected=f"a line of names, {', '.join(OWN[:3])} or entries, and a row for each specimen"):
+    """(what the line is called, its items) of all lines that are not empty; and what separates these."""
 
     def refuse(why):
         raise InputError(f"{filename}: {why}")
@@ -50,25 +60,40 @@ def _lines_of(filename):
     lines = [(number, line) for number, line in enumerate(text.lstrip("\ufeff").split("\n"), 1)
              if line.strip(" \t;,") and not line.lstrip().startswith("#")]
     if not lines:
-        refuse(f"this table is empty: expected a line of names, {', '.join(OWN)} or entries, and a row for each specimen")
+        refuse(f"this table is empty: expected {expected}")
     # what separates most items of the line of names
     separator = "\t" if sheet else max(";\t,", key=lambda separator: len(split(lines[0][1], separator)))
     word = f"sheet '{sheet}', row" if sheet else "line"
-    return [(f"{filename}: {word} {number}", split(line, separator)) for number, line in lines], separator != ","
+    return [(f"{filename}: {word} {number}", split(line, separator)) for number, line in lines], separator
+
+
+def _load_in(name):
+    """"peak", or "sd" of its error, if the name of a column has a unit of moment or force and is not that of an entry; else nothing."""
+    unit, text = unit_in(name), unit_text_in(name)
+    if not unit or unit.quantity not in ("moment", "force") or "/" in name[:name.rfind(text)].rstrip(" /[("):
+        return ""
+    return "sd" if _OF_ERRORS.search(name) else "peak"
+
+
+def has_peaks(filename) -> bool:
+    """Whether a table has peaks in the place of curves. Raises InputError."""
+    return "peak" in map(_load_in, map(with_plain_marks, lines_of(filename)[0][0][1]))
 
 
 def _column_of(name, known, place):
-    """What a column holds: one of OWN, or the full name of an entry."""
+    """What a column holds: one of OWN, "peak", "sd", or the full name of an entry."""
     plain, _, unit = with_plain_marks(name).partition("[")
     plain, unit = plain.strip(), unit.rstrip("] ")
     if plain.lower() in OWN:
         return plain.lower()
     entry = " / ".join(part.strip() for part in plain.split("/"))
+    if entry not in known and _load_in(with_plain_marks(name)):
+        return _load_in(with_plain_marks(name))
     if entry not in known or entry in _NOT_HERE:
         close = difflib.get_close_matches(entry, known, 1, 0.5)
         like = f", as {close[0]}" if close and close[0] not in _NOT_HERE else ""
         raise InputError(f"{place}: column '{shortened(name)}': expected specimen, curve, group, or an entry of the "
-                         f"scene{like}")
+                         f"scene{like}; or a load with its unit, as 'peak [N cm]'")
     needed = _debond.unit_of(entry)
     if unit and unit.replace(" ", "") != needed.replace(" ", ""):
         raise InputError(f"{place}: column '{shortened(name)}': expected the unit of the entry, {needed or 'none'}")
@@ -80,11 +105,39 @@ def _columns_of(names, known, place):
     for column in columns:
         if columns.count(column) > 1:
             raise InputError(f"{place}: column '{column}': there are two of them, expected one")
-    for column in OWN[:2]:
+    if {"curve", "peak"} <= set(columns) or "sd" in columns and "peak" not in columns:
+        raise InputError(f"{place}: read {', '.join(map(repr, names))}: expected either curves, or peaks and if need be the standard "
+                         "deviation of their error")
+    for column in ("specimen", "peak" if "peak" in columns else "curve"):
         if column not in columns:
             raise InputError(f"{place}: column '{column}' is missing: read {', '.join(map(repr, names))}; expected specimen, "
-                             "curve, and if need be group and entries of the scene")
+                             "curve, or in its place a peak with its unit, as 'peak [N cm]', and if need be group and entries of the scene")
     return columns
+
+
+def _loads_of(place, columns, names, rows, curve, separator):
+    """For each row its {"peak", "sd"} in N mm or N, sd 0 where nothing stands. curve: what the scene's is over, and its load."""
+    result = [{} for _ in rows]
+    quantity = "moment" if curve[1].endswith("Nmm") else "force"
+
+    def refuse(why):
+        raise InputError(f"{place.rpartition(': ')[0]}: {why}")
+
+    for i, (column, name) in enumerate(zip(columns, map(with_plain_marks, names))):
+        if column not in ("peak", "sd"):
+            continue
+        if unit_in(name).quantity != quantity:
+            raise InputError(f"{place}: column '{shortened(name)}': this scene is about {curve[1]} over {curve[0]}: expected a {quantity}, "
+                             "or another Output / Curve")
+        items = [(where.rpartition(" ")[2], [with_plain_marks(fields[i])] if i < len(fields) else [""]) for where, fields in rows]
+        refuse_thousands(items, separator, refuse)
+        for (where, _), (_, (item,)), own in zip(rows, items, result):
+            value = value_of(item) if item or column == "peak" else 0.0
+            if value is None or value < 0 or (item and value == 0):
+                raise InputError(f"{where}, column '{shortened(name)}': read '{shortened(item)}': expected a number above 0, of loads their "
+                                 f"magnitude{remark_on(item) if item and value is None else ''}")
+            own[column] = value * unit_in(name).factor
+    return result
 
 
 def _specimen(place, fields, known, has_decimal_commas, directory):
@@ -97,13 +150,13 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
     if not _NAME.fullmatch(name) or name.endswith(".") or name.lower() in FILES:
         refuse("specimen", "a name for a directory: a letter or a digit, then at most 99 signs but / \\ : * ? \" < > |; "
                            f"not {', '.join(FILES)}")
-    if not fields["curve"]:
+    if fields.get("curve") == "":
         refuse("curve", "the file of a measured curve")
     if group.lower() == ALL:
         refuse("group", f"another name: '{ALL}' is what the mean of all groups is called")
     entries = {}
     for column, text in fields.items():
-        if column in OWN or not text:
+        if column in (*OWN, "peak", "sd") or not text:
             continue
         if os.path.isfile(os.path.join(directory, text)):
             text = os.path.join(directory, text)
@@ -111,7 +164,7 @@ def _specimen(place, fields, known, has_decimal_commas, directory):
             value = value_of(with_plain_marks(text))
             text = text if value is None else repr(value)
         entries[column] = text
-    return Specimen(name, group, fields["curve"], entries, place)
+    return Specimen(name, group, fields.get("curve", ""), entries, place, animal=fields.get("animal", ""))
 
 
 def _scene_of(template, changes=()):
@@ -137,15 +190,18 @@ def read_specimens(filename, template) -> List[Specimen]:
     """The rows of a table, for a template: the entries of a scene with unknowns. Raises InputError, one line with file, line,
     column, what was read and what is allowed."""
     filename = os.fspath(filename)
-    known = _scene_of(template).values
-    ((place, names), *rows), has_decimal_commas = _lines_of(filename)
+    scene = _scene_of(template)
+    known = scene.values
+    ((place, names), *rows), separator = lines_of(filename)
     columns, specimens = _columns_of(filled(names), known, place), []
-    for place, items in rows:
+    loads = _loads_of(place, columns, names, rows, scene.curve, separator)
+    for (place, items), load in zip(rows, loads):
         items = filled(items)
         if len(items) > len(columns):
             raise InputError(f"{place}: read {len(items)} items: expected at most {len(columns)}, as many as there are names")
         fields = {**dict.fromkeys(columns, ""), **dict(zip(columns, items))}
-        specimen = _specimen(place, fields, known, has_decimal_commas, os.path.dirname(filename))
+        specimen = _specimen(place, fields, known, separator != ",", os.path.dirname(filename))
+        specimen.peak, specimen.sd = load.get("peak"), load.get("sd")
         for other in specimens:
             if other.name.lower() == specimen.name.lower():
                 raise InputError(f"{place}, column 'specimen': read '{specimen.name}': expected another name: "

@@ -7,12 +7,13 @@
     python3 -m debond specimens TEMPLATE.prm TABLE [--out DIR] [--jobs N]
 
 specimen_table.py says what the table holds, pooling.py what a mean over specimens is. DIR gets parameters.csv, pooled.csv,
-specimens.json and report.html; DIR/NAME what a fit leaves. Those that are finished, with the same row, curve and template, are
+differences.csv, specimens.json and report.html; DIR/NAME what a fit leaves. Those that are finished, with the same row, curve and template, are
 kept. The command ends with 2 if a specimen failed, and with 1 if the table or the template is wrong.
 """
 
 import math
 import os
+import statistics
 import sys
 from typing import Dict
 
@@ -22,14 +23,17 @@ from .errors import InputError, RunError, path_of
 from .executors import check_workers, results_of
 from .files import csv_text, make_directory, say, write_json, write_whole
 from .page import write_page_if_possible
-from .pooling import pool
+from .groups import DIFFERENCES
+from .pooling import compare_groups, pool
+from .peaks import fit_peaks, with_default_unknown
 from .scene import Scene
 from .specimen_fit import finished, fit_one, task_of
-from .specimen_table import ALL, read_specimens
+from .specimen_table import ALL, has_peaks, read_specimens
 
 PARAMETERS = ("specimen", "group", "curve", "unknown", "value", "lower_95", "upper_95", "unit", "told", "at_bound",
-              "logarithmic", "fits", "e_rel", "reason")
-POOLED = ("unknown", "group", "specimens", "left_out", "mean", "lower_95", "upper_95", "sd_between", "unit", "scale", "tau")
+              "logarithmic", "fits", "e_rel", "reason", "peak", "peak_sd", "peak_error", "peak_unit")
+POOLED = ("unknown", "group", "specimens", "left_out", "mean", "lower_95", "upper_95", "sd_between", "unit", "scale", "tau",
+          "plain_mean", "plain_sd")
 
 
 def _frame(rows, columns):
@@ -40,35 +44,59 @@ def _frame(rows, columns):
 
 class Specimens:
     """What fit_specimens() finds: parameters.csv, with a row for each specimen and unknown, and pooled.csv, with one for each
-    unknown and group, and for all, as frames of pandas. failures: {specimen: why it failed}; directory: of the results."""
+    unknown and group, and for all, and differences.csv of groups, as frames of pandas. failures: {specimen: why it failed}; directory: of the results."""
 
-    def __init__(self, parameters, pooled, failures: Dict[str, str], directory: str):
-        self._parameters, self._pooled, self.failures, self.directory = parameters, pooled, failures, directory
+    def __init__(self, parameters, pooled, differences, failures: Dict[str, str], directory: str):
+        self._parameters, self._pooled, self._differences, self.failures, self.directory = parameters, pooled, differences, failures, directory
 
     parameters = property(lambda self: _frame(self._parameters, PARAMETERS))
     pooled = property(lambda self: _frame(self._pooled, POOLED))
+    differences = property(lambda self: _frame(self._differences, DIFFERENCES))
 
 
 def _searched(row, name):
     return math.log(row[name]) if row["logarithmic"] else row[name]
 
 
+def _used(rows):
+    """Rows of values that are told, and have an error that weighs them."""
+    return [row for row in rows if row["told"] and not row["at_bound"] and row["sd"]]
+
+
 def _pooled_row(unknown, group, rows):
-    """The mean of an unknown over the specimens of a group, from their rows of specimen.json."""
-    used = [row for row in rows if row["told"] and not row["at_bound"] and row["sd"]]
-    first = rows[0]
-    mean = pool([_searched(row, "value") for row in used], [row["sd"] for row in used])
-    places, sd = (mean.mean, mean.lower, mean.upper), mean.tau
+    """The mean of an unknown over the specimens of a group, from their rows of specimen.json. Those of one animal count as their mean."""
+    used, first, of_animals = _used(rows), rows[0], {}
+    for i, row in enumerate(used):
+        of_animals.setdefault(row.get("animal") or i, []).append(row)
+    mean = pool([sum(_searched(row, "value") for row in own) / len(own) for own in of_animals.values()],
+                [math.hypot(*(row["sd"] for row in own)) / len(own) for own in of_animals.values()])
+    plain = [row["value"] for row in used]
+    # of peaks: what is common to all does not average out
+    common = sum(row.get("common", 0) for row in used) / max(1, len(used))
+    places, sd = (mean.mean, *(mean.mean + sign * math.hypot(mean.upper - mean.mean, common) for sign in (-1, 1))), mean.tau
     if first["logarithmic"]:
         places = tuple(map(math.exp, places))
         # of a logarithmic normal distribution
         sd = places[0] * math.exp(mean.tau**2 / 2) * math.sqrt(math.expm1(mean.tau**2))
-    return [unknown, group, mean.n, len(rows) - mean.n, *map(float, places), float(sd), first["unit"],
-            "logarithm" if first["logarithmic"] else "value", float(mean.tau)]
+    return [unknown, group, len(used), len(rows) - len(used), *map(float, places), float(sd), first["unit"],
+            "logarithm" if first["logarithmic"] else "value", float(mean.tau), statistics.fmean(plain) if plain else math.nan,
+            statistics.stdev(plain) if len(plain) > 1 else math.nan]
+
+
+def _differences_of(unknown, pairs):
+    """Rows of differences.csv, from pairs (group, row of specimen.json). Of what is searched by its logarithm there are ratios."""
+    used = [(group, row) for group, row in pairs if _used([row])]
+    rows = compare_groups(*zip(*((_searched(row, "value"), group or "no group", row.get("animal") or None) for group, row in used)))[1] if used else []
+    for row in rows if pairs[0][1]["logarithmic"] else []:
+        row.update({ratio: math.exp(row[name]) for ratio, name in (("ratio", "difference"), ("ratio_lower_95", "lower_95"),
+                                                                   ("ratio_upper_95", "upper_95"))})
+        row.update(dict.fromkeys(("difference", "lower_95", "upper_95"), math.nan))
+    about = {"unknown": unknown, "unit": pairs[0][1]["unit"]}
+    return [[{**about, **row}[column] for column in DIFFERENCES] for row in rows]
 
 
 def _tables(specimens, results):
-    """Rows of parameters.csv and of pooled.csv."""
+    """Rows of parameters.csv, of pooled.csv and of differences.csv."""
     parameters, of_unknowns = [], {}
     unknown = dict.fromkeys(("value", "lower_95", "upper_95", "e_rel"), math.nan)
     nothing = {**dict.fromkeys(PARAMETERS, ""), **unknown, "fits": False}
@@ -79,14 +107,15 @@ def _tables(specimens, results):
             known = {**about, **{name: value for name, value in row.items() if value is not None}}
             parameters.append([known[name] for name in PARAMETERS])
             if row:
-                of_unknowns.setdefault(row["unknown"], []).append((specimen.group, row))
-    pooled = []
+                of_unknowns.setdefault(row["unknown"], []).append((specimen.group, {**row, "animal": specimen.animal}))
+    pooled, differences = [], []
     for name, pairs in of_unknowns.items():
         groups = list(dict.fromkeys(group for group, _ in pairs))
         for group in groups if len(groups) > 1 else []:
             pooled.append(_pooled_row(name, group, [row for own, row in pairs if own == group]))
         pooled.append(_pooled_row(name, ALL, [row for _, row in pairs]))
-    return parameters, pooled
+        differences += _differences_of(name, pairs)
+    return parameters, pooled, differences
 
 
 def fit_specimens(template, table, directory=None, *, executor=None, jobs: int = 1, say=lambda text: None) -> Specimens:
@@ -100,39 +129,49 @@ def fit_specimens(template, table, directory=None, *, executor=None, jobs: int =
     scene = template if isinstance(template, Scene) else Scene(template)
     check_workers(executor, jobs, "jobs", say)
     table = path_of(table, "table")
-    specimens = read_specimens(table, scene._entries)
+    entries = scene._entries
+    if not any("<<" in entry.value for entry in entries) and has_peaks(table):
+        entries = with_default_unknown(entries, say)
+    specimens = read_specimens(table, entries)
     said = {entry.name: entry.value for entry in scene._entries}
     directory = path_of(directory or said.get("Output / Directory") or "output/specimens", "directory")
-    results = _fit_all(specimens, scene, table, directory, executor, jobs, say)
-    parameters, pooled = _tables(specimens, results)
+    make_directory(directory)
+    peaks = None
+    if specimens[0].peak is None:
+        results = _fit_all(specimens, scene, table, directory, executor, jobs, say)
+    else:
+        results, peaks = fit_peaks(specimens, entries, directory, executor, jobs, say)
+    results = {name: _said(result) for name, result in results.items()}
+    parameters, pooled, differences = _tables(specimens, results)
     failures = {name: result["reason"] for name, result in results.items() if "reason" in result}
     about = {"title": said.get("Title", ""), "table": table, "specimens": len(specimens), "failures": failures,
-             "version": _debond.version, "provenance": _debond.provenance()}
+             "peaks": peaks, "version": _debond.version, "provenance": _debond.provenance()}
     write_whole(os.path.join(directory, "parameters.csv"), csv_text(PARAMETERS, parameters))
     write_whole(os.path.join(directory, "pooled.csv"), csv_text(POOLED, pooled))
+    write_whole(os.path.join(directory, "differences.csv"), csv_text(DIFFERENCES, differences))
     write_json(os.path.join(directory, "specimens.json"), about)
     write_page_if_possible(directory)
-    return Specimens(parameters, pooled, failures, directory)
+    return Specimens(parameters, pooled, differences, failures, directory)
+
+
+def _said(result):
+    """Of what has failed {"reason"}; the others go on."""
+    if isinstance(result, (InputError, RunError)):
+        return {"reason": str(result)}
+    return {"reason": f"{type(result).__name__}: {result}"} if isinstance(result, Exception) else result
 
 
 def _fit_all(specimens, scene, table, directory, executor, n_jobs, say):
     """{name: result} of all specimens, in the order of the table."""
-    make_directory(directory)
     tasks = {specimen.name: task_of(specimen, scene._entries, table, directory) for specimen in specimens}
     results = {name: finished(task) for name, task in tasks.items()}
     left = {name: task for name, task in tasks.items() if not results[name]}
     n_done = len(tasks) - len(left)
     say(f"{len(tasks)} specimen" + "s" * (len(tasks) != 1) + f", {n_done} of them done already" * (n_done > 0))
 
-    def said(result):
-        """Of what has failed {"reason"}; the others go on."""
-        if isinstance(result, (InputError, RunError)):
-            return {"reason": str(result)}
-        return {"reason": f"{type(result).__name__}: {result}"} if isinstance(result, Exception) else result
-
     results.update(results_of(fit_one, left, executor, n_jobs,
-                              lambda name, result: say(f"{name}: {said(result).get('reason', 'done')}")))
-    return {name: said(result) for name, result in results.items()}
+                              lambda name, result: say(f"{name}: {_said(result).get('reason', 'done')}")))
+    return results
 
 
 def main(template, table, options) -> int:

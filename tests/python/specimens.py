@@ -287,7 +287,7 @@ def check_bad_tables():
     check(not os.path.exists("bad"), "a table that is refused leaves a directory")
     _, said = command("copy/template.prm", "copy/none.csv", code=1)
     check(said == "copy/none.csv: this file cannot be read: No such file or directory\n", said)
-    _, said = command("copy/plain.prm", "copy/none.csv", code=1)
+    _, said = command("copy/plain.prm", "copy/specimens.csv", code=1)
     check(said.startswith("the template has no unknowns: ") and said.count("\n") == 1, said)
     command("copy/template.prm", code=1)
     command("copy/template.prm", "copy/specimens.csv", "--jobs", "0", code=1)

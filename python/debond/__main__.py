@@ -7,6 +7,7 @@ mesh IMPLANT.step [BONE.step]   meshes and a scene from CAD
 measured FILE         read a table of a laboratory, write it as plain CSV
 nifti FILE.nii FILE.mha   write a NIfTI image as a MetaImage, which scenes read
 page DIR              write report.html of the results in a directory
+records FOLDER        peaks and curves of a folder of raw records, one file a specimen
 specimens SCENE TABLE fit many specimens
 study SCENE.prm       run all variants of a scene whose entries hold several values
 """
@@ -32,6 +33,8 @@ COMMANDS = {
              {"--size": "", "--edge-size": "", "--out": "", "--bone": "", "--depth": "", "--held": "top", "--bone-held": "bottom,sides"}),
     "nifti": ("FILE.nii FILE.mha, an image to read and one to write", 2, {}),
     "page": ("DIR, a directory of results", 1, {}),
+    "records": ('FOLDER --columns "displacement mm, force N" [--names "{animal}{limb}[-{trial}]"] [--by FIELDS] [--back 0.5] [--out DIR]', 1,
+                {"--columns": "", "--names": "", "--by": "", "--back": "0.5", "--out": ""}),
     "specimens": ("TEMPLATE.prm TABLE [--out DIR] [--jobs N]", 2, {"--out": "", "--jobs": PROCESSORS}),
     "study": ("SCENE.prm [--set ENTRY=VALUE]... [--jobs N] [--threads N] [--force] [--check]", 1,
               {"--set": [], "--jobs": PROCESSORS, "--threads": 0, "--force": False, "--check": False}),

@@ -9,12 +9,13 @@ import sys
 from debond import page_data
 from debond.files import say, write_whole
 from debond.page_campaigns import context_of_calibration, context_of_study
+from debond.page_records import context_of_records
 from debond.page_run import context_of_run
 from debond.page_specimens import context_of_specimens
 
 #: What a directory of each kind holds, its template and what fills that.
 KINDS = (("study.csv", "study.html", context_of_study), ("calibration.json", "calibration.html", context_of_calibration),
-         ("specimens.json", "specimens.html", context_of_specimens),
+         ("specimens.json", "specimens.html", context_of_specimens), ("records.json", "records.html", context_of_records),
          ("summary.json", "run.html", context_of_run), ("torque.csv", "run.html", context_of_run),
          ("reactions.csv", "run.html", context_of_run))
 

@@ -1,8 +1,10 @@
 """Commands of debond that are written in Python: python3 -m debond COMMAND ..., which the program `debond` calls.
 
+bench RIG.csv         compare a published test with its scene, over the ranges of what is not known
 calibrate SCENE.prm   find the unknowns of a scene with Task = calibrate
 compare DIR CURVE     compare results with a measured curve
 ensemble DIR          statistics of a study over its random members
+groups TABLE          means of groups and differences of each two, with intervals
 mesh IMPLANT.step [BONE.step]   meshes and a scene from CAD
 measured FILE         read a table of a laboratory, write it as plain CSV
 nifti FILE.nii FILE.mha   write a NIfTI image as a MetaImage, which scenes read
@@ -23,10 +25,14 @@ PROCESSORS = os.cpu_count()
 #: Of each command what it is given, how many files, and its options with their values where they are not said: a text, a number
 #: from 1 on, a list of texts, or False of what has no value.
 COMMANDS = {
+    "bench": ("RIG.csv [--out DIR] [--jobs N] [--force]", 1, {"--out": "", "--jobs": PROCESSORS, "--force": False}),
     "calibrate": ("SCENE.prm [--set ENTRY=VALUE]... [--threads N] [--force] [--check]", 1,
                   {"--set": [], "--threads": PROCESSORS, "--force": False, "--check": False}),
-    "compare": ("DIR CURVE [--columns LIST], a directory of results and a measured curve", 2, {"--columns": ""}),
+    "compare": ("DIR CURVE [--columns LIST] [--over machine_angle_deg], a directory of results and a measured curve", 2,
+                {"--columns": "", "--over": ""}),
     "ensemble": ("DIR, a finished study", 1, {}),
+    "groups": ('TABLE --value "peak [N]" [--by group] [--animal animal] [--diameter D --length L | --area A [--radius R]] [--out DIR]', 1,
+               {"--value": [], "--by": "group", "--animal": "", "--diameter": "", "--length": "", "--area": "", "--radius": "", "--out": ""}),
     "measured": ("FILE [--columns LIST] [--curves angle_deg,torque_Nmm]", 1,
                  {"--columns": "", "--curves": "angle_deg,torque_Nmm", "--entry": "FILE", "--columns-entry": "--columns"}),
     "mesh": ("IMPLANT.step [BONE.step | --bone 12x12x8 [--depth 5]] --out NAME [--size 0.5] [--edge-size 0.25] [--held top] [--bone-held bottom,sides]", (1, 2),

@@ -18,7 +18,8 @@ from .errors import InputError, path_of
 from .files import say
 from .measured import read_measured, read_measured_and_say
 from .measurement import unit_doubt
-from .page_data import curve_file, curve_columns, read_json, read_table, rows_of, split_unit, varied_in
+from .page_data import (MACHINES, curve_file, curve_columns, machine_compliance, read_json, read_table, rows_of, split_unit,
+                        unique, varied_in)
 
 
 @dataclass
@@ -55,14 +56,23 @@ def _table(filename):
     return [("; ".join(f"{name} = {row[name]}" for name in varied_in(table)), row) for row in rows_of(table)]
 
 
-def _compare_variants(directory, axes, measured, found):
+def _computed(directory, axes, over):
+    """The curve of a run over its own position, or over that of its machine, which is ahead where it is soft."""
+    curve = curve_file(directory)
+    positions, loads = read_measured(curve, axes)
+    if over != axes[0]:
+        positions += machine_compliance(directory, axes[0]) * read_measured(curve, (axes[0], MACHINES[axes[0]][1]))[1]
+    return numpy.array([positions, loads])
+
+
+def _compare_variants(directory, axes, over, measured, found):
     """Lines on the variants of a study."""
     rows, variants = _table(directory + "/study.csv"), []
     for varied, row in rows:
         name = "variant-" + row["variant"].zfill(3)
         curve = curve_file(directory + "/" + name)
         if os.path.exists(curve):
-            computed = read_measured(curve, axes)
+            computed = _computed(directory + "/" + name, axes, over)
             variants.append((name, varied, CurveComparison(computed, measured, *axes), computed))
     # what is not a number comes last
     variants.sort(key=lambda variant: numpy.nan_to_num(variant[2].difference_mean, nan=numpy.inf))
@@ -89,12 +99,16 @@ def _compare_band(directory, measured, found):
     return lines
 
 
-def compare(directory, curve, columns=()) -> Comparisons:
+def compare(directory, curve, columns=(), over="") -> Comparisons:
     """Compares the curves in `directory`, of a run, a study or an ensemble, with the measured one in the file `curve`. columns:
-    of that file, as of read_measured(). Raises InputError."""
+    of that file, as of read_measured(). over: machine_angle_deg or machine_uz_mm compares with what the soft machine of a run
+    shows; means of ensembles are not compared then. Raises InputError."""
     directory, curve, found = path_of(directory, "directory"), path_of(curve, "curve"), Comparisons()
     axes = _axes(directory)
-    measured, said, _ = read_measured_and_say(curve, axes, columns, "--compare", "--columns")
+    over, places = over or axes[0], unique([axes[0], MACHINES.get(axes[0], axes)[0]])
+    if over not in places:
+        raise InputError(f"debond: --over {over}: expected {' or '.join(places)}")
+    measured, said, _ = read_measured_and_say(curve, (over, axes[1]), columns, "--compare", "--columns")
     own, is_study = curve_file(directory), os.path.exists(directory + "/study.csv")
     if not is_study and not os.path.exists(own):
         raise InputError(f"debond: --compare {directory}: there are no results in this directory, neither torque.csv nor "
@@ -104,11 +118,11 @@ def compare(directory, curve, columns=()) -> Comparisons:
     lines = [f"{curve}: {said}; {len(positions)} rows, from {positions.min():.4g} to {positions.max():.4g} {units[0]}, "
              f"{LOADS[units[1]]} up to {abs(loads).max():.4g} {units[1]}"]
     if is_study:
-        lines += _compare_variants(directory, axes, measured, found)
-        if os.path.exists(directory + "/ensemble.csv"):
+        lines += _compare_variants(directory, axes, over, measured, found)
+        if over == axes[0] and os.path.exists(directory + "/ensemble.csv"):
             lines += _compare_band(directory, measured, found)
     else:
-        computed = read_measured(own, axes)
+        computed = _computed(directory, axes, over)
         run = found.runs[""] = CurveComparison(computed, measured, *axes)
         numbers = f" ({run.rows_used} rows; e_mp {100 * run.e_mp:.3g} %, e_rel {100 * run.e_rel:.3g} %)"
         lines += [f"{directory}: {run.text()}{numbers if run.rows_used else ''}"] + _remarks(computed, measured, axes, run)
@@ -118,6 +132,6 @@ def compare(directory, curve, columns=()) -> Comparisons:
 
 def main(directory, curve, options):
     """The command; 2 if there was nothing to compare."""
-    found = compare(directory, curve, options["--columns"])
+    found = compare(directory, curve, options["--columns"], options["--over"])
     say(found.text, end="")
     return 0 if any(one.rows_used for one in found.runs.values()) else 2

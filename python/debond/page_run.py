@@ -3,10 +3,11 @@
 import math
 import os
 
-from debond.page_curve import Plot, at
+from debond.page_curve import Plot, at, finite
 from debond.page_data import (MACHINES, curve_file, curve_columns, machine_compliance, number, numbers, read_entries, read_json,
                               read_table, rows_file, short, split_unit, unique, with_unit)
 from debond.page_maps import maps_of
+from debond.reductions import reduced, sizes_of
 
 #: Words and units of columns.
 LABELS = {"angle_deg": ("Rotation angle", "°"), "torque_Nmm": ("Torque T", "N mm"), "time": ("Time", ""),
@@ -110,6 +111,13 @@ def curve_of(directory, axes, own, summary, entries):
     return plot.context()
 
 
+def reductions_of(directory, axes, entries):
+    """Rows of the table of numbers to which tests are usually reduced, for curves of torques and of forces."""
+    quantity = {("°", "N mm"): "moment", ("mm", "N"): "force"}.get(tuple(unit for _, unit in labels_of(axes)))
+    rows = reduced(*finite(*curve_and_jumps(directory, axes)[:2]), quantity, sizes_of(entries)) if quantity else []
+    return [(words, with_unit(value, unit), left_out) for words, value, unit, left_out in rows]
+
+
 def origin_of(summary, seconds=None):
     """Where results come from: version, commit, date, host, command, run time [s]."""
     provenance = summary.get("provenance")
@@ -139,6 +147,6 @@ def context_of_run(directory):
             "reason": summary.get("reason") or "the run is at work, or was ended from outside" * (not summary),
             "warnings": unique([*(summary.get("warnings") or []), *(summary.get("remarks") or [])]),
             "summary": summary, "entries": entries,
-            "curves": curves, "sign": sign, "is_mu_phi": is_mu_phi,
+            "curves": curves, "sign": sign, "reductions": reductions_of(directory, own, entries), "is_mu_phi": is_mu_phi,
             "maps": maps_of(os.path.join(directory, "maps.csv"), places, without=["mu"] * is_mu_phi),
             "origin": origin_of(summary, summary.get("wall_seconds")), "files": files_of(directory)}

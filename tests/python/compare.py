@@ -69,6 +69,13 @@ def check_files():
     write("run/curve.csv", line(10))
     expect("run", RUN, compare("run", "measured.csv").text)
     expect("run", RUN_IN_NM, compare("run", "in_Nm.csv").text)
+    # a machine of 10 N mm/deg, ahead by as much as the implant turns
+    write("soft/torque.csv", "angle_deg,torque_Nmm,machine_angle_deg\n0,0,0\n10,100,20\n")
+    write("soft/curve.csv", line(10))
+    write("of_machine.csv", "angle [deg];torque [Nm]\n1;0,0055\n2;0,011\n")
+    found = compare("soft", "of_machine.csv", over="machine_angle_deg").runs[""]
+    expect_close("over the machine's angle", [1 / 11, 0.75 / 100, 2], [found.e_mp, found.e_rel, found.position_of_max])
+    expect("over the angle of a rigid one", RUN, compare("run", "measured.csv", over="machine_angle_deg").text)
     write("study/study.csv", 'variant,Bone / Cells,Interface / Seed,T_max_Nmm\n1,"3, 3, 2",1,100\n2,"4, 4, 2",1,110\n'
           '3,"5, 5, 2",1,nan\n4,"6, 6, 2",1,0\n')
     write("study/variant-001/torque.csv", line(10))
@@ -171,6 +178,7 @@ def check_program():
             (["nothing", "measured.csv"], 1,
              "debond: --compare nothing: there are no results in this directory, neither torque.csv nor reactions.csv nor study.csv\n"),
             (["run", "missing.csv"], 1, "--compare = 'missing.csv': this file cannot be read: No such file or directory\n"),
+            (["run", "measured.csv", "--over", "radius"], 1, "debond: --over radius: expected angle_deg or machine_angle_deg\n"),
             ([], 1, ""), (["run"], 1, ""), (["run", "measured.csv", "--force"], 1, ""),
             (["run", "measured.csv", "--columns"], 1, "")):
         out, err = io.StringIO(), io.StringIO()

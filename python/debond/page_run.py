@@ -5,7 +5,7 @@ import os
 
 from debond.page_curve import Plot, at, finite
 from debond.page_data import (MACHINES, curve_file, curve_columns, machine_compliance, number, numbers, read_entries, read_json,
-                              read_table, rows_file, short, split_unit, unique, with_unit)
+                              read_table, rows_file, short, unique, with_unit)
 from debond.page_maps import maps_of
 from debond.reductions import reduced, sizes_of
 
@@ -114,7 +114,9 @@ def curve_of(directory, axes, own, summary, entries):
 def reductions_of(directory, axes, entries):
     """Rows of the table of numbers to which tests are usually reduced, for curves of torques and of forces."""
     quantity = {("°", "N mm"): "moment", ("mm", "N"): "force"}.get(tuple(unit for _, unit in labels_of(axes)))
-    rows = reduced(*finite(*curve_and_jumps(directory, axes)[:2]), quantity, sizes_of(entries)) if quantity else []
+    sizes, is_along_axis = sizes_of(entries), axes[1] == "torque_Nmm" or "z" in axes[1]
+    sizes = sizes if is_along_axis or quantity == "force" and "area" in sizes else {}
+    rows = reduced(*finite(*curve_and_jumps(directory, axes)[:2]), quantity, sizes) if quantity else []
     return [(words, with_unit(value, unit), left_out) for words, value, unit, left_out in rows]
 
 

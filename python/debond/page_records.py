@@ -13,7 +13,7 @@ def context_of_records(directory):
     rows, groups, kinds, whole = rows_of(table), {}, {}, Plot("", "", "")
     n, n_marked = len(rows), sum(row["mark"] != "" for row in rows)
     for row, (x, y) in sorted(zip(rows, about["curves"]), key=lambda one: one[0]["mark"] != ""):
-        name = ", ".join(f"{field} {row[field] or 'none'}" for field in about["by"])
+        name = ", ".join(f"{field} {row[field] or 'unknown'}" for field in about["by"])
         plot, marks = groups.setdefault(name, (Plot(*labels_of(about["axes"]), f"records, {name}"), []))
         plot.add(row["specimen"], "line", x, y, FEW[0] if row["mark"] else FEW[1])
         plot.limits = whole.limits

@@ -6,8 +6,9 @@
 Files need no header. --columns says what their columns are, in order, with units; "Weg [mm], Kraft [-N]" chooses by name and
 "3 [mm], 2 [N]" by number, as measured.py does. --names splits the name of a file without its ending, or with a / its path: a
 field is a number or letters, as few as fit; {animal:[A-Z]+[0-9]+} is what this regular expression says; what stands in brackets
-may be missing. DIR gets records.csv, with a row for each file, records.json with the curves that report.html draws, and that
-page. What is wrong with a record is written into its row, under `mark`; none is left out.
+may be missing, and is `none` then. DIR gets records.csv, with a row for each file, which groups.py reads, records.json with the
+curves that report.html draws, and that page. What is wrong with a record is written into its row, under `mark`; none is left
+out. peaks.csv has those without a mark as specimen_table.py reads them.
 """
 
 import itertools
@@ -137,7 +138,7 @@ def _fields_of(paths, pattern, taken):
     if names and not any(found.values()):
         raise InputError(f"--names '{shortened(pattern)}': none of {len(paths)} files has such a name, the first is "
                          f"'{plain[paths[0]]}'; brackets hold what may be missing, as in {{animal}}{{limb}}[-{{trial}}]")
-    return {path: match and {name: match[name] or "" for name in names} for path, match in found.items()}, list(names)
+    return {path: match and {name: match[name] or "none" for name in names} for path, match in found.items()}, list(names)
 
 
 def _groups_of(rows, names, by):
@@ -196,6 +197,10 @@ def main(folder, options) -> None:
         raise InputError(f"{folder}: none of {len(paths)} files can be read: {paths[0]}: {rows[0][-1]}")
     make_directory(directory)
     write_whole(os.path.join(directory, "records.csv"), csv_text([*OWN[:2], *names, *columns, OWN[2]], rows, digits=10))
+    animal, at = [name for name in names if name == "animal"], {name: i for i, name in enumerate(names, 2)}
+    write_whole(os.path.join(directory, "peaks.csv"), csv_text(["specimen", *animal, "group", columns[0]], [
+        [row[0], *(row[at[name]] for name in animal), ", ".join(row[at[name]] for name in by), row[2 + len(names)]]
+        for row in rows if not row[-1]], digits=10))
     about = {"folder": folder, "axes": axes, "by": by, "curves": curves, "version": _debond.version, "provenance": _debond.provenance()}
     write_whole(os.path.join(directory, "records.json"), json.dumps(about))
     write_page_if_possible(directory)

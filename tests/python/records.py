@@ -123,7 +123,8 @@ def check_values(row, truth):
     k, peak, s, s_x = truth["k"], truth["peak"], NOISE / 3**0.5, JITTER / 3**0.5
     value = {name: float(text) for name, text in row.items() if re.match("peak|disp|stiff|energy|drop|slack|offset|noise|rows", name)}
     check(value["peak_N"] == peak, f"{row}: the peak is {peak}")
-    check(value["drop_rows"] == (truth["fall"] + 1) // 2, f"{row}: the load falls in {truth['fall']} rows")
+    # a row of the fall is at least a tenth of the peak from the half; noise and offset can be 0.6 N
+    check(abs(value["drop_rows"] - (truth["fall"] + 1) // 2) <= (0.1 * peak < 0.6), f"{row}: the load falls in {truth['fall']} rows")
     # the nearer to 0 of two numbers of ten values each, with a standard deviation of 0.1 N or less
     check(abs(value["offset_N"]) < 0.3, f"{row}: the offset is 0")
     check(0.6 * s < value["noise_N"] < 1.6 * s, f"{row}: the noise is {s}")
@@ -156,8 +157,9 @@ def check_seed(seed):
             check(float(row["peak_N"]) == expected, f"{row}: the peak is {expected}")
         if not failure:
             off.append(check_values(row, truth))
-        animal, limb, side, kind, trial = re.fullmatch(r"(\d+)(L|R)(L|M)(S?)(?:-(\d))?", name).groups(default="")
-        check([row[field] for field in ("animal", "limb", "side", "kind", "trial")] == [animal, limb, side, kind, trial], f"{row}")
+        animal, limb, side, kind, trial = re.fullmatch(r"(\d+)(L|R)(L|M)(S?)(?:-(\d))?", name).groups()
+        check([row[field] for field in ("animal", "limb", "side", "kind", "trial")] == [
+            animal, limb, side, kind or "none", trial or "none"], f"{row}")
     return off
 
 

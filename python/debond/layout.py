@@ -148,7 +148,7 @@ class Table:
         weights = Counter()
         for separator in separators:
             for _, line in lines[:1000]:
-                if shape := _shape_of(split(line, separator)):
+                if separator in line and (shape := _shape_of(split(line, separator))):
                     # with a wrong separator there are numbers and texts, too
                     weights[shape, separator] += 1 if "x" in shape else 2
         return max(weights, key=lambda key: (weights[key], -separators.index(key[1]), -len(key[0])), default=("", ";"))

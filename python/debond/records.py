@@ -131,8 +131,8 @@ def _fields_of(paths, pattern, taken):
         names = re.compile(text).groupindex
     except re.error as error:
         raise InputError(f"--names '{shortened(pattern)}': {error}: expected fields as in " '"{animal}{limb}[-{trial}]"') from None
-    if set(names) & set(taken):
-        raise InputError(f"--names '{shortened(pattern)}': expected names of fields that are no columns of records.csv")
+    if pattern and not names or set(names) & set(taken):
+        raise InputError(f"--names '{shortened(pattern)}': expected names of fields in braces that are no columns of records.csv")
     plain = {path: os.path.splitext(path if "/" in pattern else os.path.basename(path))[0] for path in paths}
     found = {path: re.fullmatch(text, name) if names else None for path, name in plain.items()}
     if names and not any(found.values()):

@@ -250,7 +250,8 @@ def check_refusals():
             "nowhere: expected a folder": ["nowhere", "--columns", COLUMNS],
             " files has such a name, the first is 'A1'": ["forms", "--columns", COLUMNS, "--names", "{a}_{b}"],
             "--names '{a}{a}': redefinition": ["forms", "--columns", COLUMNS, "--names", "{a}{a}"],
-            "names of fields that are no columns": ["forms", "--columns", COLUMNS, "--names", "{mark:.*}"],
+            "--names '{a': expected names of fields in braces": ["forms", "--columns", COLUMNS, "--names", "{a"],
+            "names of fields in braces that are no columns": ["forms", "--columns", COLUMNS, "--names", "{mark:.*}"],
             "--by side: expected fields of --names, a": ["forms", "--columns", COLUMNS, "--names", "{a:.*}", "--by", "side"]}.items():
         said = command(*arguments, code=1)
         check(words in said and said.count("\n") == 1, f"{arguments}: {said}")

@@ -18,11 +18,11 @@ def sizes_of(entries):
     """{size: mm or mm2} of the contact face of a scene, from its entries in words; empty where usual reductions know no such shape."""
 
     def numbers(name):
-        return [float(text) for text in entries.get(name, "0").split(",")]
+        return [float(text) for text in (entries.get(name) or "0").split(",")]
 
     shape, (radius, *_), (inner, *_) = entries.get("Implant / Shape"), numbers("Implant / Radius"), numbers("Implant / Inner radius")
     if shape in ("pin", "screw"):
-        return {"diameter": 2 * radius, "length": min(numbers(name)[0] for name in ("Implant / Height", "Bone / Height") if name in entries)}
+        return {"diameter": 2 * radius, "length": min(numbers(name)[0] for name in ("Implant / Height", "Bone / Height") if entries.get(name))}
     if shape in ("coin", "ring"):
         return {"area": math.pi * (radius**2 - (inner if shape == "ring" else 0)**2), "radius": radius}
     if shape == "block":

@@ -107,7 +107,7 @@ def _plot_of_peaks(peaks, parameters):
     for i, own in enumerate(sets):
         plot.add("model" if i == 0 else "", "line", peaks["values"], own, colour(1, 2) if len(sets) == 1 else colour(i, max(13, len(sets))))
     rows = [row for row in parameters if row["peak"]]
-    plot.add("specimens", "marks", *([number(row[name]) for row in rows] for name in ("value", "peak")), colour(0, 2))
+    plot.add("specimens", "points", *([number(row[name]) for row in rows] for name in ("value", "peak")), colour(0, 2))
     return plot.context()
 
 

@@ -16,6 +16,7 @@ from types import SimpleNamespace
 
 import numpy
 from scipy.interpolate import PchipInterpolator
+from scipy.ndimage import maximum_filter1d
 
 import _debond
 
@@ -117,7 +118,8 @@ class PeakFunction:
 
     def __init__(self, template, runs, errors):
         self.unknown, places = template.unknown, sorted(runs)
-        self.x, self.of_cubic = numpy.array(list(map(template.value, places))), numpy.array([errors[x] for x in places[:-1]])
+        # a check in the middle may be met by chance: the largest of neighbours
+        self.x, self.of_cubic = numpy.array(list(map(template.value, places))), maximum_filter1d([errors[x] for x in places[:-1]], 3)
         self.peaks, self.of_model = numpy.array([runs[x][:2] for x in places]).T
         self.curve = PchipInterpolator(self.x, self.peaks)
         self.slopes = self.curve.derivative()
@@ -130,7 +132,8 @@ class PeakFunction:
     def values(self, peak):
         """All values with this peak."""
         found = self.curve.solve(peak, extrapolate=False)
-        return numpy.unique(found[numpy.isfinite(found)])
+        found = numpy.sort([*found[numpy.isfinite(found)], *self.x[self.peaks == peak]])  # by rounding some meet a run twice, or never
+        return found[numpy.diff(found, prepend=-numpy.inf) > 1e-9 * numpy.ptp(self.x)]
 
     def value(self, peak, near=0.0):
         """That value which is nearest; where none is, that of the peak that comes closest."""

@@ -58,28 +58,23 @@ def with_default_unknown(template, say):
                      "number that peaks are to tell")
 
 
-def _unknowns_of(template):
-    """The Unknowns of a template: one. Raises InputError."""
-    if varied := next(filter(is_varied, template), None):
-        varied.refuse("a peak belongs to one scene: expected one value")
-    unknowns = Unknowns([Variant(template, {})])
-    if len(unknowns.list) != 1:
-        raise InputError(f"the template has {len(unknowns.list)} unknowns, {', '.join(unknowns.names)}: one peak tells one number; write the "
-                         "others as numbers, or fit curves")
-    return unknowns
-
-
 def _read(text):
     return _debond.Scene(_debond.read_text(text, "scene"), "scene", _debond.Team(0))
 
 
 class Template:
-    """Scenes but for the value of the unknown. low, high: its bounds as they are searched, the way from one run to the next."""
+    """Scenes but for the value of the unknown, of which there is one. low, high: its bounds as they are searched, the way from one run to
+    the next. Raises InputError."""
 
     def __init__(self, entries):
-        self.entries, self.unknowns = entries, _unknowns_of(entries)
-        self.unknown, (self.low, self.high) = self.unknowns.list[0], (
-            float(self.unknowns.to_search(bound)[0]) for bound in (self.unknowns.lower, self.unknowns.upper))
+        if varied := next(filter(is_varied, entries), None):
+            varied.refuse("a peak belongs to one scene: expected one value")
+        self.entries, self.unknowns = entries, Unknowns([Variant(entries, {})])
+        if len(self.unknowns.list) != 1:
+            raise InputError(f"the template has {len(self.unknowns.list)} unknowns, {', '.join(self.unknowns.names)}: one peak tells one number; "
+                             "write the others as numbers, or fit curves")
+        self.unknown = self.unknowns.list[0]
+        self.low, self.high = (float(self.unknowns.to_search(bound)[0]) for bound in (self.unknowns.lower, self.unknowns.upper))
 
     def value(self, place):
         return float(self.unknowns.from_search(numpy.array([place]))[0])
@@ -258,10 +253,11 @@ def _influence(template, others, value, run_all):
             continue
         by_unknown, own = slopes("", h), slopes(entry, float(change.rstrip(" %")) / 100)
         if abs(own).max() > 1e-3:
-            with numpy.errstate(divide="ignore"):
+            with numpy.errstate(divide="ignore", invalid="ignore"):
                 spread = numpy.hypot(by_unknown, by_unknown[0])[1:] / abs(by_unknown[0] * own - own[0] * by_unknown)[1:]
+                effect = -own[0] / by_unknown[0]
             best = spread.argmin()
-            rows.append({"entry": entry, "value": known, "unit": unit, "peak": own[0], "effect": -own[0] / by_unknown[0],
+            rows.append({"entry": entry, "value": known, "unit": unit, "peak": own[0], "effect": effect,
                          "further": names[best + 1] if spread[best] < LARGEST_SPREAD else "", "spread": float(min(spread[best], 1e9))})
     return rows, bool(base["rise"] > 0.01)
 
@@ -272,16 +268,19 @@ def _directory_of(text, directory):
     return os.path.join(directory, "runs", hashlib.sha256(repr((_debond.version, text, *map(digest_of, files))).encode()).hexdigest()[:16])
 
 
-def _notes(template, functions, influence, noise_is_known):
-    """What is to be said of peaks in words."""
-    name, shares = template.unknown.name, [[(errors / one.peaks[:len(errors)].clip(1e-300)).max() for errors in (one.of_cubic, one.of_model)]
-                                           for one in functions]
-    cubic, model = 100 * numpy.max(shares, axis=0)
-    notes = [f"The peak as a function of {name} is off its runs by {cubic:.2g} % at most, where runs checked it; the model is off by "
-             + (f"{model:.2g} % at most, as coarser runs say." if numpy.isfinite(model) else "an unknown error: nothing estimates it here.")]
+def _notes(template, functions, influence, noise_is_known, n_beyond):
+    """What is to be said of peaks in words. n_beyond: peaks that the model does not come to."""
+    name = template.unknown.name
+    cubic, model = (100 * max(max(errors(one)) / one.peaks.max() for one in functions) for errors in (
+        lambda one: one.of_cubic, lambda one: one.of_model))
+    notes = [f"Where runs checked it, the peak as a function of {name} is off by {cubic:.2g} % of the largest at most; the model is off by "
+             + (f"{model:.2g} %, as coarser runs say." if numpy.isfinite(model) else "an unknown error: nothing estimates it here.")]
     if not noise_is_known:
         notes.append("The error of a peak is not known: single values have no interval, and the interval of a mean is that of the scatter alone. A "
                      "column with SD and the unit in its name gives it, or Calibration / Noise in the template, relative to the peak.")
+    if n_beyond:
+        notes.append(f"{n_beyond} of the peaks are beyond those of the model, and left out of means, which are then off to the other side: wider "
+                     "bounds bring them back, or another entry is wrong.")
     if not all(one.is_monotone for one in functions):
         notes.append(f"The peak is no monotone function of {name}: several values have the same peak, and such a peak does not tell which.")
     if not influence:
@@ -298,7 +297,7 @@ def fit_peaks(specimens, entries, directory, executor, n_jobs, say):
     template, seen = Template(entries), {}
     keys = {specimen.name: tuple(sorted(specimen.entries.items())) for specimen in specimens}
     scenes = {key: _read(template.text(key, template.unknown.start)) for key in dict.fromkeys(keys.values())}
-    (first, scene), *_ = scenes.items()
+    scene = next(iter(scenes.values()))
     is_cheap = scene.values["Model"] != "finite elements"
 
     def run_all(function, tasks):
@@ -318,10 +317,13 @@ def fit_peaks(specimens, entries, directory, executor, n_jobs, say):
     results = {name: row if isinstance(row, Exception) else {"fits": True, "rows": [{**row, "peak_unit": unit}]} for name, row in rows.items()}
     if not (functions := [one for one in by_set.values() if isinstance(one, PeakFunction)]):
         return results, {}
-    middle = numpy.median([row["value"] for name, row in rows.items() if keys[name] == first and not isinstance(row, Exception)])
-    influence = _influence(template, first, middle, lambda tasks: run_all(numbers_of, tasks)) if isinstance(by_set[first], PeakFunction) else None
+    found = {name: row for name, row in rows.items() if not isinstance(row, Exception)}
+    middle = numpy.median([row["value"] for row in found.values()]) or 0.5 * (template.unknown.lower + template.unknown.upper)
+    first = next(key for key, one in by_set.items() if isinstance(one, PeakFunction))
+    influence = _influence(template, first, middle, lambda tasks: run_all(numbers_of, tasks))
     values = numpy.array(list(map(template.value, numpy.linspace(template.low, template.high, 65))))
     return results, {
-        "unknown": template.unknown.name, "unit": template.unknown.unit, "load_unit": unit, "at": float(middle), "influence": influence[0] if influence else [],
-        "notes": _notes(template, functions, influence, all(one.sd or noise[keys[one.name]] for one in specimens)), "warnings": list(seen),
+        "unknown": template.unknown.name, "unit": template.unknown.unit, "load_unit": unit, "at": float(middle), "warnings": list(seen),
+        "influence": influence[0] if influence else [], "notes": _notes(
+            template, functions, influence, all(one.sd or noise[keys[one.name]] for one in specimens), sum(row["at_bound"] for row in found.values())),
         "values": values.tolist(), "peaks": [one.curve(values).tolist() for one in functions]}

@@ -19,6 +19,7 @@ import _debond
 from .errors import InputError, shortened
 from .files import csv_text, make_directory, say, write_json, write_whole
 from .layout import filled, refuse_thousands, remark_on, value_of, with_plain_marks
+from .measured import plain_name
 from .page import write_page_if_possible
 from .page_data import short, split_unit
 from .page_specimens import difference_in_words
@@ -42,7 +43,7 @@ class _Table:
 
     def find(self, wanted, option):
         """Name and texts of a column. Raises InputError."""
-        plain = [name.partition("[")[0].strip() for name in self.names]
+        plain = list(map(plain_name, self.names))
         found = [i for i, name in enumerate(self.names) if wanted == name] or [i for i, name in enumerate(plain) if wanted == name]
         if len(found) != 1:
             raise InputError(f"{self.place}: {option} '{shortened(wanted)}': expected one of the columns '{shortened(', '.join(self.names))}'")
@@ -78,8 +79,7 @@ def _values_of(table, wanted, options):
     """What is compared: its words, unit and values, and a remark; with sizes a strength."""
     name, values = table.numbers(wanted, "--value")
     words, unit = split_unit(name)
-    if not unit and name.endswith("]"):
-        words, unit = name[:name.rindex("[")].strip(), name[name.rindex("[") + 1:-1]
+    words, unit = (words, unit) if unit else (plain_name(name), unit_text_in(name))
     given, load = [size for size in SIZES if options["--" + size]], unit_in(name)
     if not given:
         return words, unit, values, ""
@@ -109,7 +109,7 @@ def main(filename, options) -> None:
     for wanted in options["--value"]:
         words, unit, values, remark = _values_of(table, wanted, options)
         reasons = [_why_left_out(*row) for row in zip(values, groups, marks)]
-        used = [row for row, why in zip(zip(values, groups, [one or None for one in animals]), reasons) if not why]
+        used = [row for row, why in zip(zip(values, groups, [None if one in ("", "none") else one for one in animals]), reasons) if not why]
         if not used:
             raise InputError(f"{filename}: --value '{wanted}': no row has a value and a group")
         about, (own_means, own_differences) = {"unknown": words, "unit": unit}, compare_groups(*zip(*used))

@@ -30,7 +30,7 @@ CURVE_ENTRY, COLUMNS_ENTRY = "Output / Reference curve", "Output / Reference col
 _LARGEST_MB = 200
 
 
-def _plain_name(name):
+def plain_name(name):
     """A name as it is compared: without its unit in brackets."""
     return re.split(r"[\[(]", name)[0].strip()
 
@@ -43,8 +43,8 @@ def is_turned(item):
 def _chosen_column(table, item, quantity, refuse):
     """Number from 0, factor, what is said of the unit, and what names it, of the column that is meant by `item`: a name or a
     number from 1, with its unit in brackets, if that is given, behind a minus if values of the other sign are meant."""
-    name, bracket = _plain_name(item), re.sub(r"^[^\[(]*", "", item)
-    called = [i for i, other in enumerate(table.names) if name in (other, _plain_name(other))]
+    name, bracket = plain_name(item), re.sub(r"^[^\[(]*", "", item)
+    called = [i for i, other in enumerate(table.names) if name in (other, plain_name(other))]
     if len(called) > 1:
         refuse(f"there are two columns '{name}': give the number of one")
     if not called and re.fullmatch(r"\+?[0-9]+(\.0*)?", name) and 1 <= float(name) <= table.width:

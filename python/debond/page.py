@@ -8,14 +8,15 @@ import sys
 
 from debond import page_data
 from debond.files import say, write_whole
-from debond.page_campaigns import context_of_calibration, context_of_study
+from debond.page_campaigns import context_of_bench, context_of_calibration, context_of_study
 from debond.page_records import context_of_records
 from debond.page_run import context_of_run
-from debond.page_specimens import context_of_specimens
+from debond.page_specimens import context_of_groups, context_of_specimens, difference_in_words
 
 #: What a directory of each kind holds, its template and what fills that.
-KINDS = (("study.csv", "study.html", context_of_study), ("calibration.json", "calibration.html", context_of_calibration),
+KINDS = (("bench.json", "bench.html", context_of_bench), ("study.csv", "study.html", context_of_study), ("calibration.json", "calibration.html", context_of_calibration),
          ("specimens.json", "specimens.html", context_of_specimens), ("records.json", "records.html", context_of_records),
+         ("groups.json", "groups.html", context_of_groups),
          ("summary.json", "run.html", context_of_run), ("torque.csv", "run.html", context_of_run),
          ("reactions.csv", "run.html", context_of_run))
 
@@ -30,7 +31,7 @@ def page_of(directory):
             templates = jinja2.FileSystemLoader(os.path.join(os.path.dirname(__file__), "templates"))
             environment = jinja2.Environment(loader=templates, autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                              undefined=jinja2.StrictUndefined)
-            environment.globals.update(vars(page_data))
+            environment.globals.update(vars(page_data), difference_in_words=difference_in_words)
             environment.filters["symbols"] = lambda text: markupsafe.Markup(page_data.symbols(str(markupsafe.escape(text))))
             return environment.get_template(template).render(context(directory))
     raise page_data.NoResults(f"there are no results in '{directory}', none of {', '.join(kind[0] for kind in KINDS)}")

@@ -9,6 +9,8 @@ intervals from the normal distribution are too narrow (IntHout et al., BMC Medic
 
 Differences of groups are those of plain means. What values do not tell well is a part of their scatter, so intervals hold
 without knowing it; with weights from few uncertain s_i they hold less often than they say (tests/python/groups.py draws both).
+The mixed model is not that of statsmodels, which knows one scatter for all groups, and intervals of the normal distribution: of
+these 85 to 88 of 100 hold with five or six animals.
 """
 
 import itertools

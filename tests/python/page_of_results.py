@@ -138,6 +138,8 @@ def test_run(directory):
     seen, rows = words(text), table(f"{directory}/torque.csv")
     with open(f"{directory}/summary.json") as file:
         summary = json.load(file)
+    largest = summary["T_max_Nmm"] / (math.pi * 2.5**3)
+    check(f"strength T/(A R) {largest:.4g} MPa a mean over the face" in seen and "energy to the peak" in seen, "usual reductions")
     curve_is_that_of(text, rows, "angle_deg", "torque_Nmm")
     check("<h1>A &lt;coin&gt; &amp; bone</h1>" in text and "<coin>" not in text, "a title with < and & is not escaped")
     for name, said in (("T_max_Nmm", "largest torque (T_max) {} N mm"),

@@ -26,6 +26,7 @@ from debond.__main__ import main as main_of_package
 from debond.errors import InputError, RunError
 from debond.page import write_page
 from debond.pooling import pool
+from debond.specimen_table import read_specimens
 
 source, scratch = (os.path.abspath(path) for path in sys.argv[1:3])
 example = os.path.join(source, "prm", "specimens")
@@ -99,10 +100,22 @@ def check_what_is_pooled():
     row = {"told": True, "at_bound": False, "logarithmic": True, "unit": "mm", "value": 2.0, "sd": 0.1}
     others = {"value": 8.0}, {"told": False}, {"at_bound": True}, {"sd": None}, {"sd": 0.0}
     rows = [row, *({**row, **other} for other in others)]
-    unknown, group, n, left_out, mean, lower, upper, sd, unit, scale, tau = module._pooled_row("a", "g", rows)
+    unknown, group, n, left_out, mean, lower, upper, sd, unit, scale, tau, *plain = module._pooled_row("a", "g", rows)
     check((n, left_out, unit, scale) == (2, 4, "mm", "logarithm") and abs(mean - 4) < 1e-12, f"{n}, {left_out}, mean {mean}")
     check(abs(tau**2 - (math.log(4) ** 2 / 2 - 0.01)) < 1e-12, f"tau {tau}")
     check(abs(lower * upper - 16) < 1e-9, f"{lower} to {upper}")
+    check(numpy.allclose(plain, [5, 18**0.5]), f"plain mean and SD: {plain}")
+    # two specimens of an animal count as their mean, and know it better
+    twins = [{**row, "animal": "1"}, {**row, "animal": "1", "value": 8.0}, {**row, "animal": "2", "value": 3.0, "sd": 0.2}]
+    found, expected = module._pooled_row("a", "g", twins), pool([math.log(4), math.log(3)], [0.1 / 2**0.5, 0.2])
+    check(found[2] == 3 and numpy.allclose([*found[4:7], found[10]], [*numpy.exp([expected.mean, expected.lower, expected.upper]), expected.tau]),
+          f"animals: {found}, {expected}")
+    # ratios of what is searched by its logarithm are those of geometric means
+    pairs = [("a", row), ("a", {**row, "value": 4.0}), ("b", {**row, "value": 8.0}), ("b", {**row, "value": 16.0}), ("b", {**row, "told": False})]
+    ((_, group, minus, *difference, ratio, lower, upper, _),) = module._differences_of("x", pairs)
+    half = stats.t.ppf(0.975, 2) * math.log(2) / 2**0.5
+    check((group, minus) == ("b", "a") and all(map(math.isnan, difference)), f"{group} over {minus}: {difference}")
+    check(numpy.allclose([ratio, lower, upper], [4, 4 * math.exp(-half), 4 * math.exp(half)]), f"{ratio}: {lower} to {upper}")
     drawn = 4 * numpy.exp(tau * numpy.random.default_rng(1).standard_normal(10**6))
     check(abs(sd / numpy.std(drawn) - 1) < 0.02, f"standard deviation {sd}, of values that were drawn {numpy.std(drawn)}")
 
@@ -139,8 +152,12 @@ def check_example():
         check((row["scale"] == "logarithm") == (row["unknown"] == "a_s"), f"{row}")
     means = {row["group"]: float(row["mean"]) for row in rows_of("all/pooled.csv") if row["unknown"] == "mu_ub"}
     check(means["etched"] > means["machined"], f"{means}")
+    difference, ratio = rows_of("all/differences.csv")
+    values = {group: [float(row["value"]) for row in rows if (row["unknown"], row["group"]) == ("mu_ub", group)] for group in means}
+    check(abs(float(difference["difference"]) - numpy.mean(values["etched"]) + numpy.mean(values["machined"])) < 1e-12, f"{difference}")
+    check((ratio["unknown"], ratio["difference"]) == ("a_s", "nan") and float(ratio["ratio"]) > 1, f"{ratio}")
     page = text_of("all/report.html")
-    check(all(name in page for name in ("M1/report.html", "etched", "Hartung")) and page.count("<figure") == 2, "the page")
+    check(all(name in page for name in ("M1/report.html", "etched", "Hartung", "etched minus machined: ", "etched over machined: ")) and page.count("<figure") == 2, "the page")
     check(not re.search(r'(\bd|x|y|x1|cx)="[^"]*(nan|inf)', page), "the page has places that are no numbers")
     check("http" not in page.replace("http://www.w3.org", ""), "the page needs something from elsewhere")
     check(page.count('class="one"') == 12 and page.count('class="mean"') == 6, "lines of the picture")
@@ -180,6 +197,10 @@ def check_failures():
         file.write("Specimen;Curve;Implant / Radius [mm]\n"
                    "A;M1.csv;2,47\nB;missing.csv;\nC;noise.csv;2.5\nD;specimens.csv;2.5\n")
     _, said = command("copy/template.prm", "copy/some.csv", "--out", "some", "--jobs=1", code=2)
+    with open("copy/animals.csv", "w", encoding="utf-8") as file:
+        file.write("specimen,curve,Animal\nA,M1.csv,7\nB,M2.csv,\n")
+    animals = [one.animal for one in read_specimens("copy/animals.csv", debond.Scene("copy/template.prm")._entries)]
+    check(animals == ["7", ""], f"animals: {animals}")
     rows = rows_of("some/parameters.csv")
     check([row["specimen"] for row in rows] == ["A", "A", "B", "C", "D"], f"{rows}")
     for row, word in zip(rows[2:], ("missing.csv", "no parameters of this scene fit", "specimens.csv")):

@@ -43,8 +43,8 @@ class _Table:
 
     def find(self, wanted, option):
         """Name and texts of a column. Raises InputError."""
-        plain = list(map(plain_name, self.names))
-        found = [i for i, name in enumerate(self.names) if wanted == name] or [i for i, name in enumerate(plain) if wanted == name]
+        found = [i for i, name in enumerate(self.names) if wanted == name] or [
+            i for i, name in enumerate(self.names) if wanted == plain_name(name)]
         if len(found) != 1:
             raise InputError(f"{self.place}: {option} '{shortened(wanted)}': expected one of the columns '{shortened(', '.join(self.names))}'")
         return self.names[found[0]], self.columns[found[0]]
@@ -92,40 +92,44 @@ def _values_of(table, wanted, options):
             f"{formula} is {left_out}.")
 
 
-def _why_left_out(value, group, mark):
-    return f"marked '{mark.partition(':')[0]}'" if mark else "without a value" if math.isnan(value) else "" if group else "without a group"
+def _compared(rows, words, unit):
+    """Means, differences, [value's words, group, value] of what is used, and notes, of rows (value, group, animal, mark)."""
+    reasons = [f"marked '{mark.partition(':')[0]}'" if mark else "without a value" if math.isnan(value) else "" if group else "without a group"
+               for value, group, _, mark in rows]
+    used, counts = [row[:3] for row, why in zip(rows, reasons) if not why], collections.Counter(filter(None, reasons))
+    if not used:
+        raise InputError(f"{words}: no row has a value and a group, and no mark")
+    groups_of = collections.Counter(animal for _, animal in {row[1:] for row in used} if animal)
+    n_shared, about = sum(n > 1 for n in groups_of.values()), {"unknown": words, "unit": unit}
+    notes = [f"{words}: {sum(counts.values())} of {len(rows)} rows are left out, "
+             + ", ".join(f"{n} {why}" for why, n in counts.items()) + "."] * bool(counts)
+    notes += [f"{words}: {n_shared} animals are in more than one group."] * bool(n_shared)
+    means, differences = ([{**about, **row} for row in found] for found in compare_groups(*zip(*used)))
+    return means, differences, [[words, group, value] for value, group, _ in used], notes
 
 
 def main(filename, options) -> None:
     """The command."""
     table = _Table(filename)
-    by = [table.find(name.strip(), "--by")[1] for name in options["--by"].split(",")]
-    groups = [", ".join(filter(None, own)) for own in zip(*by)]
-    animals = table.find(options["--animal"], "--animal")[1] if options["--animal"] else [""] * len(groups)
-    marks = table.find("mark", "")[1] if "mark" in table.names else [""] * len(groups)
     if not options["--value"]:
         raise InputError(f"{table.place}: expected --value with one of the columns '{shortened(', '.join(table.names))}'")
-    means, differences, notes, dots = [], [], [], []
+    groups = [", ".join(filter(None, own)) for own in zip(*(table.find(name.strip(), "--by")[1] for name in options["--by"].split(",")))]
+    animals = table.find(options["--animal"], "--animal")[1] if options["--animal"] else [""] * len(groups)
+    animals = [None if animal in ("", "none") else animal for animal in animals]
+    marks = table.find("mark", "")[1] if "mark" in table.names else [""] * len(groups)
+    results = [], [], [], []
     for wanted in options["--value"]:
         words, unit, values, remark = _values_of(table, wanted, options)
-        reasons = [_why_left_out(*row) for row in zip(values, groups, marks)]
-        used = [row for row, why in zip(zip(values, groups, [None if one in ("", "none") else one for one in animals]), reasons) if not why]
-        if not used:
-            raise InputError(f"{filename}: --value '{wanted}': no row has a value and a group")
-        about, (own_means, own_differences) = {"unknown": words, "unit": unit}, compare_groups(*zip(*used))
-        means, differences = ([*old, *({**about, **row} for row in new)] for old, new in ((means, own_means), (differences, own_differences)))
-        dots += [[words, group, value] for value, group, _ in used]
-        counts = collections.Counter(filter(None, reasons))
-        notes += [remark] * bool(remark) + [f"{words}: {sum(counts.values())} of {len(reasons)} rows are left out, "
-                                            + ", ".join(f"{n} {why}" for why, n in counts.items()) + "."] * bool(counts)
-        n_shared = sum(n > 1 for n in collections.Counter(animal for _, animal in {row[1:] for row in used} if animal).values())
-        notes += [f"{words}: {n_shared} animals are in more than one group."] * bool(n_shared)
+        found = _compared(list(zip(values, groups, animals, marks)), words, unit)
+        for rows, more in zip(results, (*found[:3], [remark] * bool(remark) + found[3])):
+            rows += more
+    means, differences, values, notes = results
     _show(means, differences, notes)
     if directory := options["--out"]:
         make_directory(directory)
         for name, columns, rows in (("groups.csv", GROUPS, means), ("differences.csv", DIFFERENCES, differences)):
             write_whole(os.path.join(directory, name), csv_text(columns, [[row[column] for column in columns] for row in rows]))
-        write_json(os.path.join(directory, "groups.json"), {"table": filename, "by": options["--by"], "notes": notes, "values": dots,
+        write_json(os.path.join(directory, "groups.json"), {"table": filename, "by": options["--by"], "notes": notes, "values": values,
                                                             "version": _debond.version, "provenance": _debond.provenance()})
         write_page_if_possible(directory)
         say(f"Results are in {directory}/groups.csv, differences.csv and report.html")

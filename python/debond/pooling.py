@@ -17,7 +17,7 @@ import itertools
 from dataclasses import dataclass
 
 import numpy
-from scipy import optimize, stats
+from scipy import optimize, special, stats
 
 
 @dataclass
@@ -107,21 +107,26 @@ def _contrast(c, covariance, known):
     Phi, slopes, of_theta = known
     by_theta = slopes @ c @ c
     freedom = 2 * (c @ Phi @ c) ** 2 / max(by_theta @ of_theta @ by_theta, 1e-300)
-    return c @ covariance @ c, stats.t.ppf(0.975, max(1.0, freedom))
+    # with few pairs that of Kenward and Roger may be the smaller one
+    return max(c @ covariance @ c, c @ Phi @ c), special.stdtrit(max(1.0, freedom), 0.975)
 
 
 def _ratio(c, means, covariance, known):
     """Of the mean that c counts positive over the other one, and its interval by Fieller (J. R. Stat. Soc. B 16 (1954) 175-185): all
-    r such that a - r b may be 0. NaN where a mean is not positive; without ends where b may be 0."""
-    (a, b), at = (means[c > 0][0], means[c < 0][0]), [numpy.flatnonzero(c > 0)[0], numpy.flatnonzero(c < 0)[0]]
+    r such that a - r b may be 0, so that 1 is among them if the difference may be 0. NaN where a mean is not positive; without
+    ends where b may be 0."""
+    a, b = means[c > 0][0], means[c < 0][0]
     if min(a, b) <= 0:
         return numpy.nan, numpy.nan, numpy.nan
-    _, t = _contrast(numpy.where(c < 0, -a / b, c), covariance, known)
-    (aa, ab), (_, bb) = t**2 * covariance[numpy.ix_(at, at)]
-    square = (a * b - ab) ** 2 - (a**2 - aa) * (b**2 - bb)
-    if b**2 <= bb or square < 0:
+
+    def excess(r):
+        variance, t = _contrast(numpy.where(c < 0, -r, c), covariance, known)
+        return (a - r * b) ** 2 - t**2 * variance
+
+    ends = [sign * 100 * a / b for sign in (-1, 1)]
+    if min(map(excess, ends)) <= 0:
         return a / b, numpy.nan, numpy.nan
-    return a / b, *((a * b - ab + sign * square**0.5) / (b**2 - bb) for sign in (-1, 1))
+    return a / b, *(optimize.brentq(excess, a / b, end) if excess(a / b) < 0 else a / b for end in ends)
 
 
 def compare_groups(y, groups, animals=None):

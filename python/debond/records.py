@@ -92,13 +92,13 @@ def evaluated(x, load, back: float = 0.5):
         return values, ["no peak: nothing beyond the noise"]
     slope, zero = _line(x[:top + 1], up[:top + 1], peak, noise)
     fallen = numpy.flatnonzero(up[top:] < (1 - back) * peak)
-    # of equal rows the first is the highest; chance goes up and down; from a peak the load falls until it rises to the next
-    padded = numpy.pad(up - 1e-9 * peak * numpy.arange(len(up)), 1)
+    # chance goes up and down; from a peak the load falls until it rises to the next one
+    padded = numpy.pad(up, 1)
     tops, _ = signal.find_peaks(padded, prominence=max(RISE * peak, 2 * CLEAR * noise))
     n_falls = numpy.sum(padded[tops] - numpy.minimum.reduceat(padded, tops) >= COMPARABLE * peak)
     runs = [(value, len(list(run))) for value, run in itertools.groupby(up) if value > peak / 2]
     stuck, elsewhere = (max((n for value, n in runs if (value == peak) == is_top), default=0) for is_top in (True, False))
-    is_alone = numpy.pad(up, 1)[[top, top + 2]].max() < peak / 2
+    is_alone = padded[[top, top + 2]].max() < peak / 2
     marks = {"negative: the peak is in the other direction": sign < 0,
              "single row: none beside the peak is half as high": is_alone,
              f"too few samples: {top + 1} rows up to the peak": not is_alone and (top + 1 < FEWEST or numpy.isnan(slope)),

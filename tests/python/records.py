@@ -231,12 +231,23 @@ def check_torques():
 
 
 def check_marks():
-    """Ties of a coarse sensor are no peaks of their own; stairs are; a single row is no peak."""
+    """Ties of a coarse sensor are no peaks of their own; stairs are; a single row is no peak. Noise of a normal distribution hides
+    no weak peak, and is none. A sensor that is not zero changes the peak alone."""
+    noise = 0.1 * numpy.random.default_rng(3).standard_normal(300)
     smooth = numpy.concatenate([numpy.linspace(0, 20, 200), numpy.zeros(50)])
     marks = {"ties": (numpy.round(smooth, 0), []), "stairs": (numpy.concatenate([smooth[:200], numpy.linspace(10, 14, 60), [0, 0, 0]]), ["several peaks: 2"]),
              "crack": (numpy.where(numpy.arange(250) == 150, smooth - 4, smooth), []),
              "one row": (numpy.where(numpy.arange(250) == 240, 90, smooth), ["single row: none beside the peak is half as high"]),
              "no way up": (smooth[195:], ["too few samples: 5 rows up to the peak"]), "flat": (numpy.zeros(100), ["no peak: nothing beyond the noise"])}
+    marks.update({"noise": (noise, ["no peak: nothing beyond the noise"]), "twins": (numpy.append(smooth[:200], [19.9, 20, 0, 0, 0]), []),
+                  "weak": (numpy.concatenate([numpy.linspace(0, 1.4, 100), numpy.zeros(200)]) + noise, [])})
+    x = 0.1 * numpy.arange(250)
+    first, shifted, turned = (evaluated(x, load)[0] for load in (smooth, smooth + 5, -smooth))
+    for name, value in first.items():
+        other = value + 5 * (name in ("peak", "offset"))
+        check(abs(shifted[name] - other) < 1e-9 * abs(other) + 1e-9, f"with 5 N more {name} is {shifted[name]}, not {other}")
+        other = value * (-1 if name in ("peak", "stiffness", "energy") else 1)
+        check(abs(turned[name] - other) < 1e-9, f"in the other direction {name} is {turned[name]}, not {other}")
     for name, (load, expected) in marks.items():
         found = evaluated(0.1 * numpy.arange(len(load)), load)[1]
         check(found == expected, f"{name}: {found}, not {expected}")

@@ -42,7 +42,7 @@ FACT_NAMES = ["scene", "seconds", "ended", "curves", "map", "note"]
 NO_SCENES = re.compile(r"(_scenes?|_reference|/template|prm/coin)\.prm$")
 FOLDERS = {  # in this order
     "prm": "First scenes", "prm/tutorial": "Tutorial", "prm/paper": "The paper", "prm/adhesion": "Bonds with strength in tension",
-    "prm/shapes": "Shapes", "prm/cad": "Implants from CAD", "prm/bone": "Bone that gives way",
+    "prm/shapes": "Shapes", "prm/cad": "Implants from CAD", "prm/bone": "Bone that gives way", "prm/bench": "Published tests",
     "prm/heterogeneous": "Bone that varies", "prm/calibrate": "Fits", "prm/studies": "Studies",
     "prm/stability": "Stability", "prm/verification": "Verification"}
 VIRIDIS = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"]  # as in doc/style.gp

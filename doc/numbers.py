@@ -389,6 +389,24 @@ def snap_back():
 
 
 @numbers('minutes')
+def bench():
+    """All published tests of prm/bench."""
+    rows = []
+    for rig in sorted(set(glob.glob('prm/bench/*.csv')) - {'prm/bench/cement_bone_softening.csv'}):
+        out = os.path.join(options.results, 'bench_' + os.path.basename(rig)[:-4])
+        subprocess.run([sys.executable, '-m', 'debond', 'bench', rig, '--out', out, *['--force'] * options.force], check=True, stdout=subprocess.DEVNULL,
+                       env={**os.environ, 'PYTHONPATH': os.path.join(os.path.dirname(options.debond), 'python')})
+        with open(out + '/bench.json', encoding='utf-8') as text:
+            results = json.load(text)
+        for row in results['rows']:
+            rows.append(['`%s`' % os.path.basename(rig), row['group'] + (' [%s]' % row['unit'] if row['unit'] else ''), row['mean'] or '–',
+                         *('%.3g' % row[name] for name in ('nominal', 'least', 'most')), row['verdict']])
+    few = re.compile('rat_femur(?!.*(blasted, (9|84)|phosphate, 5) days)|steel_post.*force over')
+    shown = [tuple(row[:2]) for row in rows if not few.search(' '.join(row[:2]))]
+    return long_table('bench', ['rig', 'result', 'published', 'computed', 'least', 'most', 'verdict'], rows, shown)
+
+
+@numbers('minutes')
 def refinement():
     def line(name, eps, exact, cells, ours, errors):
         order = math.log(abs(errors[0] / errors[-1])) / math.log(cells[-1] / cells[0])

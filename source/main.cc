@@ -59,7 +59,7 @@ namespace
   const char *const help_text =
     R"(usage: debond [OPTIONS] SCENE.prm
        debond --resume DIR [OPTIONS] [SCENE.prm]
-       debond --compare DIR CURVE [--columns LIST]
+       debond --compare DIR CURVE [--columns LIST] [--over COLUMN]
        debond --report DIR
 
 Simulates how an implant comes off bone, as the scene file describes it, and
@@ -81,6 +81,8 @@ among N processes.
   --columns LIST      which columns of CURVE are angle and torque, as Output /
                       Reference columns: "2 [deg], 3 [N m]"; with
                       "3 [-N m]" torques of the other sign
+  --over COLUMN       compare over machine_angle_deg or machine_uz_mm, where a soft
+                      machine is, and not over the implant
   --report DIR        write report.html of the results in DIR anew; nothing is run
   --jobs N            run N variants of a study at a time (default: as many as
                       there are processors)
@@ -119,6 +121,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     std::string directory_to_compare; ///< with the curve in scene_file
     std::string directory_to_report;
     std::string columns;                ///< of that curve; empty: recognised
+    std::string over;                   ///< its place; empty: the implant's
     std::vector<std::string> overrides; ///< "Subsection/Entry=value", in order
     bool force = false, check = false, print_parameters = false, help = false,
          version = false, verbose = false;
@@ -170,7 +173,7 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     const bool compares = !arguments.directory_to_compare.empty();
     if (compares && (resumes || arguments.check || arguments.print_parameters ||
                      arguments.force || !arguments.overrides.empty()))
-      refuse_usage("--compare goes with a curve and --columns only");
+      refuse_usage("--compare goes with a curve, --columns and --over only");
     if (compares && arguments.scene_file.empty())
       refuse_usage("--compare needs a measured curve: --compare DIR CURVE.csv");
     const bool reports = !arguments.directory_to_report.empty();
@@ -179,6 +182,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
     if (!compares && !arguments.columns.empty())
       refuse_usage("--columns is for --compare; a scene has Output / Reference "
                    "columns");
+    if (!compares && !arguments.over.empty())
+      refuse_usage("--over is for --compare");
     // With --print-parameters alone the defaults are printed.
     const bool needs_no_scene =
       resumes || reports || arguments.help || arguments.version ||
@@ -217,7 +222,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
        {&arguments.directory_to_compare, "a directory of results"}},
       {"--report", {&arguments.directory_to_report, "a directory of results"}},
       {"--columns",
-       {&arguments.columns, "two columns, the angle and the torque"}}};
+       {&arguments.columns, "two columns, the angle and the torque"}},
+      {"--over", {&arguments.over, "machine_angle_deg or machine_uz_mm"}}};
     // From left to right: of an entry that is set twice the last value counts.
     for (auto word = words.begin(); word != words.end(); ++word)
       {
@@ -432,7 +438,8 @@ not be written, 3 internal error, 128 + N interrupted by signal N.
       Laboratory::become("compare",
                          {arguments.directory_to_compare,
                           arguments.scene_file,
-                          "--columns=" + arguments.columns});
+                          "--columns=" + arguments.columns,
+                          "--over=" + arguments.over});
     if (!arguments.directory_to_report.empty())
       Laboratory::become("page", {arguments.directory_to_report});
     if (arguments.scene_file.empty())

@@ -5,6 +5,7 @@ unit, and fills the bodies with tetrahedra of ten nodes."""
 
 import math
 import os
+import re
 
 import gmsh
 import numpy
@@ -148,8 +149,27 @@ def _join(implant, bone):
     return implant, bone, contact
 
 
-def _at_ends(solid, contact, words, option):
-    """Faces of a body at its ends, or for `sides` those that are neither top nor bottom and reach its ends in x or y; free ones."""
+def _colour(face):
+    """That of a face in the STEP file, as RRGGBB; empty without one."""
+    *rgb, alpha = gmsh.model.getColor(2, face)
+    return "%02x%02x%02x" % tuple(rgb) if alpha else ""
+
+
+def _chosen(word, at, own, option):
+    """Free faces of a body that a word names: those `at` its ends, beyond a plane, or of a colour."""
+    kind, _, value = word.partition("=")
+    if kind in ("above", "below") and value:
+        expect(re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)", value), option, word, "a place along z in mm, as above=1.5")
+        return {face for face in own if (_box(2, face)[0, 2] > float(value) - 1e-6 if kind == "above" else _box(2, face)[1, 2] < float(value) + 1e-6)}
+    if kind == "colour" and value:
+        return {face for face in own if _colour(face) == value.lower()}
+    expect(word in at, option, word, ", ".join(at) + ", above=Z, below=Z (mm), colour=RRGGBB")
+    return at[word]
+
+
+def _held(solid, contact, words, option):
+    """Faces of a body at its ends, or for `sides` those that are neither top nor bottom and reach its ends in x or y; or those that
+    _chosen() finds."""
     own, (low, high) = _faces(solid) - contact, _box(3, solid)
     slack = 1e-4 * max(high - low)
     at = {word: {face for face in own if numpy.abs(_box(2, face)[:, d] - (low, high)[end][d]).max() < slack} for word, (d, end) in ENDS.items()}
@@ -157,10 +177,12 @@ def _at_ends(solid, contact, words, option):
     at["sides"] = {face for face in own - at["top"] - at["bottom"] if reaching(face)}
     found = set()
     for word in words.split(","):
-        expect(word in at, option, word, ", ".join(at))
-        if not at[word]:
-            raise InputError(f"{option} {word}: the body has no flat face there, or all of it is contact: expected another word, or more of the body outside")
-        found |= at[word]
+        chosen = _chosen(word, at, own, option)
+        if not chosen:
+            colours = ", ".join(sorted(set(map(_colour, own)) - {""})) or "no colour"
+            raise InputError(f"{option} {word}: no free face of the body is there, or none that is flat: expected "
+                             f"another word, above=Z for all faces beyond a place along z, or a colour of the file (its free faces have {colours})")
+        found |= chosen
     return found
 
 
@@ -301,7 +323,7 @@ def _picture(bodies):
                        for points, colour in drawn)
     height = scale * (high - low)[1] + 50
     words = "".join(f'<text x="{20 + 180 * i}" y="{height - 12:.0f}" fill="rgb{COLOURS[kind]}">{kind}</text>' for i, kind in enumerate(COLOURS))
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="920" height="{height:.0f}" font-family="sans-serif" stroke="#555" '
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 920 {height:.0f}" width="100%" font-family="sans-serif" stroke="#555" '
             f'stroke-width="0.3">\n{polygons}{words}</svg>\n')
 
 
@@ -315,8 +337,8 @@ def _mesh(files, options):
     else:
         raise InputError("mesh: there is no bone: expected a second STEP file, or --bone 12x12x8 for a block around the implant")
     implant, bone, contact = _join(implant, bone)
-    groups = {implant: {"contact": contact, "held": _at_ends(implant, contact, options["--held"], "--held")},
-              bone: {"contact": contact, "held": _at_ends(bone, contact, options["--bone-held"], "--bone-held")}}
+    groups = {implant: {"contact": contact, "held": _held(implant, contact, options["--held"], "--held")},
+              bone: {"contact": contact, "held": _held(bone, contact, options["--bone-held"], "--bone-held")}}
     expect(bool(options["--out"]), "--out", options["--out"], "what the names of the files begin with")
     size = _number("--size", options["--size"] or math.sqrt(sum(gmsh.model.occ.getMass(2, face) for face in contact) / 40))
     edge_size, name = _number("--edge-size", options["--edge-size"] or size), options["--out"]

@@ -118,7 +118,8 @@ namespace Debond
 
 
   // A similar name in the same subsection, `Expert' left aside, the same name
-  // or a similar one elsewhere, or a longer name that contains this one.
+  // or a similar one elsewhere, there in a subsection with a similar name, or a
+  // longer name that contains this one.
   std::string
   EntryTable::likely_name(const SceneEntry &entry) const
   {
@@ -130,16 +131,18 @@ namespace Debond
       entry.full_name().substr(0, entry.full_name().size() - name.size());
     if (section.rfind(expert, 0) == 0)
       section.erase(0, expert.size());
-    std::string  likely;
-    unsigned int smallest = std::max<std::size_t>(3, name.size() / 3 + 1);
+    std::string likely;
+    double      smallest = std::max<std::size_t>(3, name.size() / 3 + 1);
     for (const Row &row : rows)
       {
         const SceneEntry &other = row.entry;
         const bool        contains =
           name.size() > 3 && other.name.find(name) != std::string::npos;
-        const unsigned int distance =
+        const unsigned int elsewhere =
+          edit_distance(other.full_name(), placed(section + other.name));
+        const double distance =
           std::min(edit_distance(other.name, name), contains ? 1U : 1000U) +
-          (other.full_name() == placed(section + other.name) ? 0 : 1);
+          (elsewhere > 0 ? 1. + 1e-3 * elsewhere : 0.);
         if (distance < smallest)
           {
             smallest = distance;

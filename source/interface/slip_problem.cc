@@ -265,14 +265,13 @@ namespace Debond
   SlipOutcome
   SlipProblem::solve(const Vector2d &start)
   {
-    constexpr unsigned int max_iterations = 30;
-    Vector2d               xi             = start;
-    double                 before         = 0.; // error of the last iteration
-    held                                  = {{false, false}};
+    Vector2d xi     = start;
+    double   before = 0.; // error of the last iteration
+    held            = {{false, false}};
     last_step.setZero();
     evaluate(xi);
     unsigned int pushes = 0;
-    for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+    for (unsigned int iteration = 0; iteration < 30; ++iteration)
       {
         const double   error = distance_error(), rounding = round_off();
         const Vector2d step = -along_surface().h.inverse() * equations->h;
@@ -320,8 +319,7 @@ namespace Debond
   {
     const auto            box   = surface.element_bounds(place.element);
     const SlipEquations  &e     = *equations;
-    const Eigen::Matrix2d slope =
-      along_surface().h - e.bend_of_tangential_excess();
+    const Eigen::Matrix2d slope = along_surface().h - e.tangential_bend();
     ElementStep           result{-slope.inverse() * e.h};
     for (unsigned int d = 0; d < 2; ++d)
       result.beyond[d] = (place.xi[d] <= box[0][d] && result.step[d] < 0.) ||
@@ -344,11 +342,10 @@ namespace Debond
   SlipOutcome
   SlipProblem::solve_with_ridges(const Vector2d &start)
   {
-    constexpr unsigned int max_iterations = 60;
-    constexpr double       negligible     = 1e-13; // of a parameter
-    NurbsSurface::Place    now{surface.element_of(start), start};
+    constexpr double    negligible = 1e-13; // of a parameter
+    NurbsSurface::Place now{surface.element_of(start), start};
     evaluate_in(now);
-    for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+    for (unsigned int iteration = 0; iteration < 60; ++iteration)
       {
         const auto        box  = surface.element_bounds(now.element);
         const ElementStep here = step_in_element(now);
@@ -411,6 +408,8 @@ namespace Debond
     const auto &[element, xi] = beside[0];
     const auto         box    = surface.element_bounds(element);
     const unsigned int e      = xi[0] > box[0][0] && xi[0] < box[1][0] ? 1 : 0;
+    if (xi[1 - e] <= box[0][1 - e] || xi[1 - e] >= box[1][1 - e])
+      return Vector3d::Zero(); // where the ridge ends
     surface.evaluate_in_element(element, xi, basis);
     contract(basis, *point.master.positions, geometry);
     // where both parameters grow, or fall, towards the side: the other way

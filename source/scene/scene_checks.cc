@@ -1,6 +1,7 @@
 #include <debond/input/entry_table.h>
 #include <debond/input/expression_parser.h>
 #include <debond/interface/bonding_pattern.h>
+#include <debond/scene/finer_scenes.h>
 #include <debond/scene/reference_data.h>
 #include <debond/scene/scene.h>
 #include <debond/support/number_text.h>
@@ -281,6 +282,13 @@ namespace Debond
   void
   Scene::check_shapes() const
   {
+    for (const auto &[own, entry] :
+         {std::pair{&bone, "Expert / Implant / Coarser mesh file"},
+          std::pair{&implant, "Expert / Bone / Coarser mesh file"}})
+      if (!own->coarser_mesh_file.empty() && !has_coarser_files(*this))
+        throw EntryError(entry,
+                         "expected a file, as the other body has one: the "
+                         "error comes from larger cells of both");
     if (implant.geometry().is_in_bore() && bone.shape_row().is_lattice())
       throw EntryError("Implant / Shape",
                        "a " + implant.shape_row().name +

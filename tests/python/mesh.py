@@ -58,6 +58,20 @@ def write(name, make, unit="MM"):
             file.write(text.replace("SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)"))
 
 
+def colour(name, n, rgb):
+    """Colours the n-th face of a file."""
+    with open(name, encoding="utf-8") as file:
+        text = file.read()
+    face = re.findall(r"(#\d+) = ADVANCED_FACE", text)[n]
+    context = re.search(r"(#\d+) = \( ?GEOMETRIC_REPRESENTATION_CONTEXT", text).group(1)
+    style = (f"STYLED_ITEM('',(#9001),{face})", "PRESENTATION_STYLE_ASSIGNMENT((#9002))", "SURFACE_STYLE_USAGE(.BOTH.,#9003)", "SURFACE_SIDE_STYLE('',(#9004))",
+             "SURFACE_STYLE_FILL_AREA(#9005)", "FILL_AREA_STYLE('',(#9006))", "FILL_AREA_STYLE_COLOUR('',#9007)", f"COLOUR_RGB('',{rgb})",
+             f"MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#9000),{context})")
+    head, end = text.rsplit("ENDSEC;", 1)
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(head + "".join(f"#{9000 + i} = {one};\n" for i, one in enumerate(style)) + "ENDSEC;" + end)
+
+
 def main(program, post) -> int:
     text, code = say(post, "--bone", "8x8x4", "--out", "post")
     expect(code == 0, "a post in a block")
@@ -79,6 +93,8 @@ def main(program, post) -> int:
     if checked.returncode:
         print(checked.stderr)
     expect(checked.returncode == 0, "and is complete with it")
+    checked = subprocess.run([program, "post.prm", "--check", "--set", "Expert/Bone/Coarser mesh file="], capture_output=True, text=True, check=False)
+    expect("Expert / Bone / Coarser mesh file: expected a file, as the other body has one" in checked.stderr, "larger cells of one body alone are refused")
 
     write("peg.step", lambda occ: occ.addCylinder(0, 0, -3, 0, 0, 4, 1), "M")
 
@@ -92,6 +108,14 @@ def main(program, post) -> int:
     text, code = say("peg.step", "bone.step", "--out", "peg", "--size", "0.4")
     expect(code == 0 and near(number(r"implant:.* contact (\S+) mm", text), math.pi * (1 + 2 * 3)), "bodies of two files that touch")
 
+    write("ball.step", lambda occ: occ.fuse([(3, occ.addCylinder(0, 0, -3, 0, 0, 4, 1))], [(3, occ.addSphere(0, 0, 1, 1.4))]))
+    text, code = say("ball.step", "--bone", "6x6x5", "--depth", "3", "--held", "above=0", "--out", "ball")
+    ball = 2 * math.pi * 1.4 * (1.4 + math.sqrt(1.4**2 - 1))  # without the cap in the peg
+    expect(code == 0 and near(number(r"implant:.* held (\S+) mm", text), ball + 2 * math.pi * (1 - math.sqrt(1.4**2 - 1))), "a round head held above a plane")
+    colour("peg.step", 1, "1.,0.,0.")
+    text, code = say("peg.step", "--bone", "6x6x5", "--depth", "3", "--held", "colour=ff0000", "--out", "red")
+    expect(code == 0 and near(number(r"implant:.* held (\S+) mm", text), math.pi), "the face of a colour held")
+
     text, code = say("peg.step", "--bone", "6x4", "--bone-held", "sides", "--out", "through")
     expect(code == 0 and near(number(r"bone:.* contact (\S+) mm", text), 8 * math.pi), "a hole all the way through")
 
@@ -102,7 +126,8 @@ def main(program, post) -> int:
     for words, why in (((post,), "there is no bone"), ((post, "--bone", "8by8"), "a length in mm"), (("two.step", "--bone", "8x8x4"), "2 solids"),
                        (("gone.step", "--bone", "8x8x4"), "a STEP file that is there"), (("no.step", "--bone", "8x8x4"), "cannot be read"),
                        ((post, "far.step"), "bodies in place"), ((post, "--bone", "8x8x4", "--held", "roof"), "top, bottom"),
-                       ((post, "--bone", "8x8x4", "--held", "bottom"), "no flat face there"), ((post, "--bone", "1x1x1"), "")):
+                       ((post, "--bone", "8x8x4", "--held", "bottom"), "none that is flat"),
+                       ((post, "--bone", "8x8x4", "--held", "above=x"), "a place along z"), ((post, "--bone", "8x8x4", "--held", "colour=00ff00"), "have no colour"), ((post, "--bone", "1x1x1"), "")):
         text, code = say(*words, "--out", "wrong")
         expect(code == 1 and why in text and text.count("\n") <= 4, " ".join(map(os.path.basename, words)))
     return len(failed)

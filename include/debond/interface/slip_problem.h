@@ -96,7 +96,7 @@ namespace Debond
     along_surface() const;
     /** What of dh/dxi_hat vanishes with h: the excess along the surface. */
     Eigen::Matrix2d
-    bend_of_tangential_excess() const
+    tangential_bend() const
     {
       return bend(excess - normal.n.dot(excess) * normal.n);
     }

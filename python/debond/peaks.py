@@ -9,34 +9,32 @@ more than TOLERANCE. The cubic is inverted exactly, also for the ends of the int
 sd of the noise, which is the specimen's own; e is common to all of them, and does not average out.
 """
 
-import hashlib
 import os
 import time
 from types import SimpleNamespace
 
 import numpy
 from scipy.interpolate import PchipInterpolator
-from scipy.ndimage import maximum_filter1d
 
 import _debond
 
 from .errors import InputError, RunError
-from .experiment import run_task
 from .executors import results_of
-from .files import digest_of
 from .known import changes_of_model
 from .measurement import curve_column, stated_noise
 from .page_data import number, read_json
+from .problem import Runs
 from .scene import Scene
+from .specimen_fit import identity_of
 from .unknowns import Unknowns
 from .variants import Variant, is_varied
 
 NODES, ROUNDS = 3, 7  # at first, with a check in the middle of two; they come to lie 2^(1 - ROUNDS) as close at most
-TOLERANCE = 1e-3  # of the cubic, relative to the peak: a tenth of the usual Accuracy
+TOLERANCE = 1e-3  # of the cubic, relative to the peak: a tenth of the usual Accuracy; with an error of the model half of that
 NORMAL = 1.96
-HARDLY = 0.1  # per cent of the peak for one of an entry
 LARGEST_SPREAD = 20  # per cent of an entry for one of noise: what is more tells nothing
 LARGEST_SECONDS = 300  # for what a peak cannot tell
+NUMBERS = ("peak", "load at the end", "area under the curve", "initial stiffness", "where the load has fallen halfway to its end")
 OWN_PROCESSES = 50  # runs of closed forms that are worth more than this process
 _BOND, _PLAIN = "Interface / Bonding / Bonding degree", ["Task=simulate", "Output/Reference curve=none", "Output/Reference columns=auto"]
 # what Law and Friction law begin with, the entry, and its range or the factor from its value to the bounds
@@ -62,67 +60,50 @@ def _read(text):
     return _debond.Scene(_debond.read_text(text, "scene"), "scene", _debond.Team(0))
 
 
-class Template:
-    """Scenes but for the value of the unknown, of which there is one. low, high: its bounds as they are searched, the way from one run to
-    the next. Raises InputError."""
-
-    def __init__(self, entries):
-        if varied := next(filter(is_varied, entries), None):
-            varied.refuse("a peak belongs to one scene: expected one value")
-        self.entries, self.unknowns = entries, Unknowns([Variant(entries, {})])
-        if len(self.unknowns.list) != 1:
-            raise InputError(f"the template has {len(self.unknowns.list)} unknowns, {', '.join(self.unknowns.names)}: one peak tells one number; "
-                             "write the others as numbers, or fit curves")
-        self.unknown = self.unknowns.list[0]
-        self.low, self.high = (float(self.unknowns.to_search(bound)[0]) for bound in (self.unknowns.lower, self.unknowns.upper))
-
-    def value(self, place):
-        return float(self.unknowns.from_search(numpy.array([place]))[0])
-
-    def text(self, others, value):
-        """others: entries of specimens, pairs (full name, text)."""
-        own = _debond.changed(self.entries, [*(f"{name}={text}" for name, text in others), *_PLAIN])
-        return _debond.text_of(_debond.with_values(own, self.unknowns.entries(0, [value])))
+def unknown_of(entries):
+    """Unknowns of a template, of which there is one. Raises InputError."""
+    if varied := next(filter(is_varied, entries), None):
+        varied.refuse("a peak belongs to one scene: expected one value")
+    unknowns = Unknowns([Variant(entries, {})])
+    if len(unknowns.list) != 1:
+        raise InputError(f"the template has {len(unknowns.list)} unknowns, {', '.join(unknowns.names)}: one peak tells one number; "
+                         "write the others as numbers, or fit curves")
+    return unknowns
 
 
-def _peak_in(summary):
-    """The largest load of a run and its estimated error, NaN where there is none."""
-    curve = summary.get("curve") or {"largest": summary["T_max_Nmm"], "largest_error": summary.get("T_max_Nmm_error")}
-    return abs(curve["largest"]), number(curve.get("largest_error"))
+def _text_of(entries, unknowns, others, value):
+    """The scene with a value of the unknown, and other entries of specimens, pairs (full name, text)."""
+    own = _debond.changed(entries, [*(f"{name}={text}" for name, text in others), *_PLAIN])
+    return _debond.text_of(_debond.with_values(own, unknowns.entries(0, [value])))
 
 
 def run_peak(task):
-    """(peak, error, warnings) of a run: what an executor of any kind calls. `task`: text of a scene, and a directory that keeps the
-    results of finite elements, or nothing. Raises InputError or RunError."""
+    """(largest load of a run, its estimated error or NaN, warnings): what an executor of any kind calls. `task`: text of a scene, and a
+    directory that keeps the results of finite elements, or nothing. Raises InputError or RunError."""
     text, directory = task
     own = {"Calibration/Noise": "auto"}  # which is read here
-    if not directory:
+    if directory:
+        file = os.path.join(directory, "summary.json")
+        if not read_json(file).get("converged"):
+            own |= {"Output/Fields every": "none", "Output/Report": False, "Expert/Output/Console": "quiet", "Output/Directory": directory}
+            Scene(None, own, text=text).write(force=True)
+        summary = read_json(file)
+    else:
         result = Scene(None, own, text=text).run()
-        return *_peak_in(result.summary), result.warnings
-    file = os.path.join(directory, "summary.json")
-    if not read_json(file).get("converged"):
-        own |= {"Output/Fields every": "none", "Output/Report": False, "Expert/Output/Console": "quiet", "Output/Directory": directory}
-        Scene(None, own, text=text).write(force=True)
-    summary = read_json(file)
-    return *_peak_in(summary), summary["warnings"]
+        summary = {**result.summary, "warnings": result.warnings}
+    curve = summary.get("curve") or {"largest": summary["T_max_Nmm"], "largest_error": summary.get("T_max_Nmm_error")}
+    return abs(curve["largest"]), number(curve.get("largest_error")), summary["warnings"]
 
 
 class PeakFunction:
-    """The peak over the value of the unknown. runs: {place: (peak, error of the model)}; errors: {place: that of the cubic up to the next
+    """The peak over the value of the unknown. runs: {value: (peak, error of the model)}; errors: {value: that of the cubic up to the next
     one}."""
 
-    def __init__(self, template, runs, errors):
-        self.unknown, places = template.unknown, sorted(runs)
-        # a check in the middle may be met by chance: the largest of neighbours
-        self.x, self.of_cubic = numpy.array(list(map(template.value, places))), maximum_filter1d([errors[x] for x in places[:-1]], 3)
-        self.peaks, self.of_model = numpy.array([runs[x][:2] for x in places]).T
+    def __init__(self, unknowns, runs, errors):
+        self.x, self.unknowns, self.unknown = numpy.array(sorted(runs)), unknowns, unknowns.list[0]
+        self.of_cubic, (self.peaks, self.of_model) = numpy.array([errors[x] for x in self.x[:-1]]), numpy.array([runs[x][:2] for x in self.x]).T
         self.curve = PchipInterpolator(self.x, self.peaks)
-        self.slopes = self.curve.derivative()
-
-    @property
-    def is_monotone(self):
-        steps = numpy.diff(self.peaks)
-        return (steps > 0).all() or (steps < 0).all()
+        self.is_monotone = abs(numpy.sign(numpy.diff(self.peaks)).sum()) == len(self.x) - 1
 
     def values(self, peak):
         """All values with this peak."""
@@ -137,193 +118,153 @@ class PeakFunction:
 
     def error(self, value):
         """Of cubic and model, in the unit of the peak."""
+        # a check in the middle may be met by chance: the larger one of neighbours
         part = numpy.searchsorted(self.x[1:-1], value, side="right")
-        return float(numpy.hypot(self.of_cubic[part], numpy.nan_to_num(numpy.interp(value, self.x, self.of_model))))
+        return float(numpy.hypot(self.of_cubic[max(part - 1, 0):part + 2].max(), numpy.nan_to_num(numpy.interp(value, self.x, self.of_model))))
 
     def slope(self, value):
         """Of the peak by what is searched, its magnitude."""
-        return float(abs(self.slopes(value)) * (value if self.unknown.logarithmic else 1))
+        return float(abs(self.curve(value, 1)) * (value if self.unknown.logarithmic else 1))
 
     def row(self, peak, sd):
         """What a peak with this error, 0 if it is not known, tells: a row of specimen.json."""
-        values, at, lower, upper = self.values(peak), self.value(peak), numpy.nan, numpy.nan
-        half = numpy.hypot(NORMAL * sd, self.error(at))
+        values, at, ends = self.values(peak), self.value(peak), [numpy.nan, numpy.nan]
         if sd > 0 and len(values) < 2:
-            lower, upper = sorted(self.value(peak + sign * half, at) for sign in (-1, 1))
-        low, high, first, last = (numpy.log if self.unknown.logarithmic else numpy.array)([lower, upper, self.x[0], self.x[-1]])
-        told = len(values) == 1 and self.slope(at) > 0 and not high - low >= 0.9 * (last - first)
-        return {"unknown": self.unknown.name, "value": float(at), "lower_95": float(lower), "upper_95": float(upper),
-                "unit": self.unknown.unit, "logarithmic": self.unknown.logarithmic, "told": bool(told), "at_bound": not len(values),
+            half = numpy.hypot(NORMAL * sd, self.error(at))
+            ends = sorted(float(self.value(peak + sign * half, at)) for sign in (-1, 1))
+        width, whole = map(numpy.ptp, map(self.unknowns.to_search, (ends, self.x)))
+        return {"unknown": self.unknown.name, "value": float(at), "lower_95": ends[0], "upper_95": ends[1],
+                "unit": self.unknown.unit, "logarithmic": self.unknown.logarithmic, "at_bound": not len(values),
+                "told": len(values) == 1 and self.slope(at) > 0 and not width >= 0.9 * whole,
                 "peak": peak, "peak_sd": sd or numpy.nan, "peak_error": self.error(at), "reason": (
                     f"the model's peaks are from {self.peaks.min():.4g} to {self.peaks.max():.4g}" if not len(values) else
                     " and ".join(f"{one:.4g}" for one in values) + " have the same peak" if len(values) > 1 else "")}
 
 
-def functions_of(template, sets, run):
-    """{set of other entries: PeakFunction, or the exception of a run}. run: {(set, place): run_peak()} of a list of such pairs."""
-    first = numpy.linspace(template.low, template.high, NODES).tolist()
-    known, errors, functions = {key: {} for key in sets}, {key: {} for key in sets}, {}
-    parts = list(zip(first, first[1:]))
-    wanted = {key: (first + [0.5 * (a + b) for a, b in parts], parts) for key in sets}
+def places_of(unknown, n):
+    """From bound to bound, on the way that is searched."""
+    return (numpy.geomspace if unknown.logarithmic else numpy.linspace)(unknown.lower, unknown.upper, n)
+
+
+def functions_of(unknowns, sets, run):
+    """{set of other entries: PeakFunction}, and {set: why there is none}. run: {(set, value): run_peak()} of a list of such pairs."""
+    unknown, known, errors, failed = unknowns.list[0], {key: {} for key in sets}, {key: {} for key in sets}, {}
+    new = places_of(unknown, NODES).tolist()
+    parts = list(zip(new, new[1:]))
     for _ in range(ROUNDS):
-        for (key, place), result in run([(key, x) for key, (places, _) in wanted.items() for x in places]).items():
+        middles = {(a * b) ** 0.5 if unknown.logarithmic else 0.5 * (a + b): (a, b) for a, b in parts}
+        for (key, x), result in run([(key, x) for key in known for x in [*new, *middles]]).items():
+            known[key][x] = result
             if isinstance(result, Exception):
-                functions[key] = RunError(f"{template.unknown.name} = {template.value(place):.6g}, which narrower bounds leave out: {result}")
-            known[key][place] = result
-        for key, (_, parts) in list(wanted.items()):
-            del wanted[key]
-            if key in functions:
-                continue
-            own, middles, more = known[key], {0.5 * (a + b): (a, b) for a, b in parts}, []
-            cubic = PchipInterpolator(*zip(*sorted((template.value(x), result[0]) for x, result in own.items() if x not in middles)))
-            for middle, (a, b) in middles.items():
-                peak = own[middle][0]
-                errors[key][a] = errors[key][middle] = abs(float(cubic(template.value(middle))) - peak)
-                if errors[key][a] > TOLERANCE * max(peak, 1e-2 * max(one[0] for one in own.values())):
-                    more += [(a, middle), (middle, b)]
-            if more:
-                wanted[key] = [0.5 * (a + b) for a, b in more], more
-        if not wanted:
+                failed[key] = RunError(f"{unknown.name} = {x:.6g}, which narrower bounds leave out: {result}")
+        known, new, parts = {key: own for key, own in known.items() if key not in failed}, [], []
+        for key, own in known.items():
+            cubic = PchipInterpolator(*zip(*sorted((x, one[0]) for x, one in own.items() if x not in middles)))
+            for x, (a, b) in middles.items():
+                peak, of_model, _ = own[x]
+                errors[key][a] = errors[key][x] = off = abs(float(cubic(x)) - peak)
+                if off > numpy.fmax(TOLERANCE * max(peak, 1e-2 * max(one[0] for one in own.values())), 0.5 * of_model):
+                    parts += [(a, x), (x, b)]
+        if not parts:
             break
-    return {key: functions.get(key) or PeakFunction(template, known[key], errors[key]) for key in sets}
+    return {key: PeakFunction(unknowns, own, errors[key]) for key, own in known.items()}, failed
 
 
 def rows_of_peaks(specimens, functions, noise):
-    """{name: its row, or the exception}. functions, noise: {name: ...}; that is the standard deviation of a peak over the peak, where the
-    table states none, 0 if it is not known. sd and common, the errors of what is searched that are a value's own and those of all, are those at
-    the median of its group: what a value weighs in a mean must not hang on its noise."""
-    rows = {one.name: functions[one.name] if isinstance(functions[one.name], Exception) else functions[one.name].row(
-        one.peak, one.sd or noise[one.name] * one.peak) for one in specimens}
+    """{name: its row}. functions, noise: {name: ...}; that is the standard deviation of a peak over the peak, where the table states none,
+    0 if it is not known. sd and common, the errors of what is searched that are a value's own and those of all, are those at the median of
+    its group: what a value weighs in a mean must not hang on its noise."""
+    rows = {one.name: functions[one.name].row(one.peak, one.sd or noise[one.name] * one.peak) for one in specimens}
     for group in {one.group for one in specimens}:
-        own = [one for one in specimens if one.group == group and not isinstance(rows[one.name], Exception)]
-        middle = numpy.median([rows[one.name]["value"] for one in own]) if own else 0
-        for one in own:
-            function = functions[one.name]
-            slope = function.slope(middle) or numpy.inf
-            sd = (one.sd or noise[one.name] * function.curve(middle)) / slope
-            # of errors that are not known all weigh the same
-            rows[one.name].update(sd=float(sd) or 1e-6, common=float(function.error(middle) / slope))
+        middle = numpy.median([rows[one.name]["value"] for one in specimens if one.group == group])
+        for one in specimens:
+            if one.group == group:
+                function = functions[one.name]
+                slope = function.slope(middle) or numpy.inf
+                sd = (one.sd or noise[one.name] * function.curve(middle)) / slope
+                # of errors that are not known all weigh the same
+                rows[one.name].update(sd=float(sd) or 1e-6, common=float(function.error(middle) / slope))
     return rows
 
 
-def numbers_of(task):
-    """{words: number} that can be read off the curve of a run, the peak first; and by which share of it the load rises in the last
-    twentieth of its way. `task`: of run_task(), with the columns of the curve. What an executor of any kind calls. Raises RunError."""
-    rows = run_task(task)
-    if isinstance(rows, str):
-        raise RunError(rows)
-    x, y = (abs(rows[column] - rows[column][0] * (column == task[-1][0])) for column in task[-1])
+def numbers_of(x, y):
+    """NUMBERS of a curve, and by which share of the peak the load rises in the last twentieth of its way."""
+    x, y = abs(x - x[0]), abs(y)
     end = x.argmax()
     begin = numpy.flatnonzero(x[:end] == x[:end].min())[-1] if end else 0  # an implant may have been pressed before
     x, y = x[begin:end + 1], y[begin:end + 1]
-    peak, half, steps = y.argmax(), 0.5 * (y.max() + y[-1]), numpy.diff(x)
-    after = numpy.s_[peak:peak + 1 + (y[peak:] <= half).argmax()]
-    return {"peak": y.max(), "load at the end": y[-1], "area under the curve": 0.5 * steps @ (y[1:] + y[:-1]),
-            "initial stiffness": (y[1] - y[0]) / steps[0], "where the load has fallen halfway to its end": numpy.interp(-half, -y[after], x[after]),
-            "rise": (y[-1] - numpy.interp(0.95 * x[-1], x, y)) / y.max()}
+    peak, half = y.argmax(), 0.5 * (y.max() + y[-1])
+    fall = numpy.s_[peak:peak + 1 + (y[peak:] <= half).argmax()]
+    return numpy.array([y[peak], y[-1], numpy.trapz(y, x), (y[1] - y[0]) / (x[1] - x[0]), numpy.interp(-half, -y[fall], x[fall])]), (
+        y[-1] - numpy.interp(0.95 * x[-1], x, y)) / y[peak]
 
 
-def _influence(template, others, value, run_all):
+def _influence(text, unknowns, value, runs):
     """How peaks and other numbers change with what is taken as known, by one run for each entry with the same steps: a list of {"entry",
     "value", "unit", "peak": % of the peak for +1 %, "effect": % of the unknown, "further": what else would tell the entry, or nothing,
-    "spread": % of it for 1 % noise of both}; and whether the load still rises at the end. None if that fails or takes too long. run_all:
-    {key: numbers_of()} of {key: task}."""
-    text, start, held = template.text(others, value), time.time(), template.unknowns.entries(0, [value])
-    scene = _read(text)
-    curve = _debond.VaryingCurve(_debond.read_text(text, "scene"), "scene")
-    steps = tuple(map(tuple, curve.steps_of([]))) if scene.values["Model"] == "finite elements" else ()
-    h = 0.01 if 1.01 * value <= template.unknown.upper else -0.01
+    "spread": % of it for 1 % noise of both}; and whether the load still rises at the end. None if that fails or takes too long. text: the
+    scene at this value."""
+    held, start, entries = unknowns.entries(0, [value]), time.time(), _debond.read_text(text, "scene")
+    scene, steps = _debond.Scene(entries, "scene", _debond.Team(0)), _debond.VaryingCurve(entries, "scene").steps_of([])
     changes = changes_of_model(SimpleNamespace(values=scene.values, over=curve_column(scene, scene.curve[0], "")), held)
+    known = {**held, **{entry: now for entry, now, *_ in changes}}  # a curve keeps what was changed before: all of it is said again
 
-    def task(others):
-        """A curve keeps what was changed before: all of it is said again."""
-        return text, "scene", tuple({**held, **{entry: known for entry, known, *_ in changes}, **others}.items()), steps, scene.curve
+    def numbers(all_own):
+        rows = runs.rows([(text, "scene", tuple({**known, **own}.items()), steps, scene.curve) for own in all_own])
+        return [None if isinstance(one, str) else numbers_of(*(one[column] for column in scene.curve)) for one in rows]
 
-    base = run_all({"": task({})})[""]
-    if isinstance(base, Exception) or (time.time() - start) * len(changes) > LARGEST_SECONDS:
+    (base,) = numbers([{}])
+    if base is None or (time.time() - start) * len(changes) > LARGEST_SECONDS:
         return None
-    found = run_all({"": task(template.unknowns.entries(0, [(1 + h) * value])), **{entry: task({entry: new}) for entry, *_, new in changes}})
-    names, rows = [name for name in base if base[name] > 0 and name != "rise"], []
-
-    def slopes(key, step):
-        return numpy.array([numpy.log(max(found[key][name], 1e-300) / base[name]) / step for name in names])
-
-    for entry, known, unit, change, _ in changes:
-        if any(isinstance(found[key], Exception) for key in ("", entry)):
+    step = 0.01 if 1.01 * value <= unknowns.upper[0] else -0.01
+    found = numbers([unknowns.entries(0, [(1 + step) * value]), *({entry: new} for entry, *_, new in changes)])
+    shares, used = [step, *(float(change.rstrip(" %")) / 100 for *_, change, _ in changes)], base[0] > 0
+    slopes = [one and numpy.log(numpy.maximum(one[0], 1e-300)[used] / base[0][used]) / share for one, share in zip(found, shares)]
+    names, u, rows = numpy.array(NUMBERS)[used][1:], slopes[0], []
+    for (entry, now, unit, *_), own in zip(changes, slopes[1:]):
+        if u is None or own is None or abs(own).max() <= 1e-3:
             continue
-        by_unknown, own = slopes("", h), slopes(entry, float(change.rstrip(" %")) / 100)
-        if abs(own).max() > 1e-3:
-            with numpy.errstate(divide="ignore", invalid="ignore"):
-                spread = numpy.hypot(by_unknown, by_unknown[0])[1:] / abs(by_unknown[0] * own - own[0] * by_unknown)[1:]
-                effect = -own[0] / by_unknown[0]
-            best = spread.argmin()
-            rows.append({"entry": entry, "value": known, "unit": unit, "peak": own[0], "effect": effect,
-                         "further": names[best + 1] if spread[best] < LARGEST_SPREAD else "", "spread": float(min(spread[best], 1e9))})
-    return rows, bool(base["rise"] > 0.01)
-
-
-def _directory_of(text, directory):
-    """Where the results of a scene are kept: another one for other contents of its files."""
-    files = [entry.value for entry in _debond.read_text(text, "scene") if os.path.isfile(entry.value)]
-    return os.path.join(directory, "runs", hashlib.sha256(repr((_debond.version, text, *map(digest_of, files))).encode()).hexdigest()[:16])
-
-
-def _notes(template, functions, influence, noise_is_known, n_beyond):
-    """What is to be said of peaks in words. n_beyond: peaks that the model does not come to."""
-    name = template.unknown.name
-    cubic, model = (100 * max(max(errors(one)) / one.peaks.max() for one in functions) for errors in (
-        lambda one: one.of_cubic, lambda one: one.of_model))
-    notes = [f"Where runs checked it, the peak as a function of {name} is off by {cubic:.2g} % of the largest at most; the model is off by "
-             + (f"{model:.2g} %, as coarser runs say." if numpy.isfinite(model) else "an unknown error: nothing estimates it here.")]
-    if not noise_is_known:
-        notes.append("The error of a peak is not known: single values have no interval, and the interval of a mean is that of the scatter alone. A "
-                     "column with SD and the unit in its name gives it, or Calibration / Noise in the template, relative to the peak.")
-    if n_beyond:
-        notes.append(f"{n_beyond} of the peaks are beyond those of the model, and left out of means, which are then off to the other side: wider "
-                     "bounds bring them back, or another entry is wrong.")
-    if not all(one.is_monotone for one in functions):
-        notes.append(f"The peak is no monotone function of {name}: several values have the same peak, and such a peak does not tell which.")
-    if not influence:
-        return [*notes, "What else a peak hangs on was not computed: these runs fail, or take too long."]
-    if influence[1]:
-        notes.append("The load still rises where the scene ends: let it move further, or the peak is that of the scene and not of the implant.")
-    hardly = [one["entry"] for one in influence[0] if abs(one["peak"]) < HARDLY]
-    return [*notes, f"A peak tells one number: {name} is found with all others taken as known, and what is wrong in these is wrong in it."] + [
-        f"The peak hardly depends on {', '.join(hardly)}, and tells nothing of them."] * bool(hardly)
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            spread, effect = numpy.hypot(u, u[0])[1:] / abs(u[0] * own - own[0] * u)[1:], -own[0] / u[0]
+        best = numpy.argmin(spread)
+        rows.append({"entry": entry, "value": now, "unit": unit, "peak": own[0], "effect": effect,
+                     "further": str(names[best]) if spread[best] < LARGEST_SPREAD else "", "spread": float(min(spread[best], 1e9))})
+    return rows, bool(base[1] > 0.01)
 
 
 def fit_peaks(specimens, entries, directory, executor, n_jobs, say):
     """{name: {"fits", "rows"} as of a fit, or the exception}, and what else the page shows. Raises InputError."""
-    template, seen = Template(entries), {}
-    keys = {specimen.name: tuple(sorted(specimen.entries.items())) for specimen in specimens}
-    scenes = {key: _read(template.text(key, template.unknown.start)) for key in dict.fromkeys(keys.values())}
+    unknowns, warnings = unknown_of(entries), {}
+    unknown, keys = unknowns.list[0], {specimen.name: tuple(sorted(specimen.entries.items())) for specimen in specimens}
+    scenes = {key: _read(_text_of(entries, unknowns, key, unknown.start)) for key in dict.fromkeys(keys.values())}
     scene = next(iter(scenes.values()))
-    is_cheap = scene.values["Model"] != "finite elements"
-
-    def run_all(function, tasks):
-        return results_of(function, tasks, executor, 1 if is_cheap and len(tasks) < OWN_PROCESSES else n_jobs)
+    is_kept, unit = scene.values["Model"] == "finite elements", scene.curve[1].rpartition("_")[2].replace("Nmm", "N mm")
 
     def run(pairs):
         say(f"{len(pairs)} runs")
-        tasks = {(key, x): template.text(key, template.value(x)) for key, x in pairs}
-        results = run_all(run_peak, {pair: (text, "" if is_cheap else _directory_of(text, directory)) for pair, text in tasks.items()})
-        seen.update((text, "") for one in results.values() if not isinstance(one, Exception) for text in one[2])
+        tasks = {}
+        for key, value in pairs:
+            text = _text_of(entries, unknowns, key, value)
+            tasks[key, value] = text, os.path.join(directory, "runs", identity_of(_debond.read_text(text, "scene"), text)[:16]) * is_kept
+        results = results_of(run_peak, tasks, executor, n_jobs if is_kept or len(tasks) >= OWN_PROCESSES else 1)
+        warnings.update((text, "") for one in results.values() if not isinstance(one, Exception) for text in one[2])
         return results
 
-    by_set = functions_of(template, list(scenes), run)
-    noise = {key: stated_noise(one.values)[0] for key, one in scenes.items()}
-    rows = rows_of_peaks(specimens, *({name: of_set[key] for name, key in keys.items()} for of_set in (by_set, noise)))
-    unit = scene.curve[1].rpartition("_")[2].replace("Nmm", "N mm")
-    results = {name: row if isinstance(row, Exception) else {"fits": True, "rows": [{**row, "peak_unit": unit}]} for name, row in rows.items()}
-    if not (functions := [one for one in by_set.values() if isinstance(one, PeakFunction)]):
+    functions, failed = functions_of(unknowns, list(scenes), run)
+    results = {name: failed[key] for name, key in keys.items() if key in failed}
+    if not functions:
         return results, {}
-    found = {name: row for name, row in rows.items() if not isinstance(row, Exception)}
-    middle = numpy.median([row["value"] for row in found.values()]) or 0.5 * (template.unknown.lower + template.unknown.upper)
-    first = next(key for key, one in by_set.items() if isinstance(one, PeakFunction))
-    influence = _influence(template, first, middle, lambda tasks: run_all(numbers_of, tasks))
-    values = numpy.array(list(map(template.value, numpy.linspace(template.low, template.high, 65))))
+    done = [one for one in specimens if one.name not in results]
+    noise = {one.name: stated_noise(scenes[keys[one.name]].values)[0] for one in done}
+    rows = rows_of_peaks(done, {one.name: functions[keys[one.name]] for one in done}, noise)
+    results.update((name, {"fits": True, "rows": [{**row, "peak_unit": unit}]}) for name, row in rows.items())
+    middle = numpy.median([row["value"] for row in rows.values()]) or 0.5 * (unknown.lower + unknown.upper)
+    influence = _influence(_text_of(entries, unknowns, next(iter(functions)), middle), unknowns, middle, Runs(executor, n_jobs))
+    values, functions = places_of(unknown, 65), functions.values()
+    of_cubic, of_model = (100 * max(max(getattr(one, name)) / one.peaks.max() for one in functions) for name in ("of_cubic", "of_model"))
     return results, {
-        "unknown": template.unknown.name, "unit": template.unknown.unit, "load_unit": unit, "at": float(middle), "warnings": list(seen),
-        "influence": influence[0] if influence else [], "notes": _notes(
-            template, functions, influence, all(one.sd or noise[keys[one.name]] for one in specimens), sum(row["at_bound"] for row in found.values())),
-        "values": values.tolist(), "peaks": [one.curve(values).tolist() for one in functions]}
+        "unknown": unknown.name, "unit": unknown.unit, "load_unit": unit, "at": float(middle), "warnings": list(warnings),
+        "of_cubic": of_cubic, "of_model": of_model if of_model == of_model else None,
+        "beyond": sum(row["at_bound"] for row in rows.values()), "noise_is_known": all(one.sd or noise[one.name] for one in done),
+        "is_monotone": all(one.is_monotone for one in functions), "influence": influence and influence[0],
+        "rises": bool(influence and influence[1]), "values": values.tolist(), "peaks": [one.curve(values).tolist() for one in functions]}

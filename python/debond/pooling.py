@@ -72,34 +72,27 @@ def _restricted(roots, y, X, parts):
     return minus_log, roots * (numpy.einsum("kij,ij->k", parts, P) - parts @ Py @ Py)
 
 
-def _mixed(y, groups, animals):
-    """Means of groups (G) with the animal as random effect, and what _contrast() needs of them: y_i = m_group + u_animal + e_i, with
-    the variance of u common and that of e each group's own, by restricted maximum likelihood. y, groups (0 ... G - 1), animals:
-    of n values. With their covariance of Kenward and Roger (Biometrics 53 (1997) 983-997): with few animals the one that takes
-    the variances as known is too small."""
-    X = numpy.equal.outer(groups, numpy.arange(max(groups) + 1)).astype(float)
-    parts = numpy.array([*map(numpy.diag, X.T), numpy.equal.outer(animals, animals)], dtype=float)
-    scatter = numpy.array([numpy.var(y[groups == group], ddof=1) for group in range(X.shape[1])])
-    scale = scatter.mean() ** 0.5 or 1.0
-    y, start = y / scale, numpy.sqrt(numpy.append(scatter, scatter.mean()) / 2) / scale
-    theta = optimize.minimize(_restricted, start, (y, X, parts), jac=True, method="BFGS").x ** 2 + 1e-9
+def _fitted(y, groups, animals):
+    """Means of groups (G), and what _contrast() needs of them: y_i = m_group + u_animal + e_i, with the variance of u common and that of
+    e each group's own, by restricted maximum likelihood. y, groups (0 ... G - 1), animals: of n values; if no animal repeats there
+    is no u, and _contrast() is the test of Welch. With the covariance of Kenward and Roger (Biometrics 53 (1997) 983-997): with
+    few animals the one that takes the variances as known is too small."""
+    X, repeat = numpy.equal.outer(groups, numpy.arange(max(groups) + 1)).astype(float), len(set(animals)) < len(animals)
+    parts = numpy.array([*map(numpy.diag, X.T), *[numpy.equal.outer(animals, animals)] * repeat], dtype=float)
+    theta = numpy.array([numpy.var(y[own > 0], ddof=1) for own in X.T])
+    scale = theta.mean() ** 0.5 or 1.0
+    y, theta = y / scale, theta / scale**2 + 1e-12
+    if repeat:
+        start = numpy.sqrt(numpy.append(theta, theta.mean()) / 2)
+        theta = optimize.minimize(_restricted, start, (y, X, parts), jac=True, method="BFGS").x ** 2 + 1e-9
     W = numpy.linalg.inv(numpy.tensordot(theta, parts, 1))
     Phi, A = numpy.linalg.inv(X.T @ W @ X), W @ X
     PV, VA = (W - A @ Phi @ A.T) @ parts, parts @ A
-    of_theta = numpy.linalg.pinv(0.5 * numpy.einsum("aij,bji->ab", PV, PV))  # covariance of the variances
-    D = A.T @ VA
-    more = numpy.einsum("ab,anp,nm,bmq->pq", of_theta, VA, W, VA, optimize=True) - numpy.einsum(
-        "ab,apr,rs,bsq->pq", of_theta, D, Phi, D, optimize=True)
+    told, D = 0.5 * numpy.einsum("aij,bji->ab", PV, PV), A.T @ VA  # of theta by y; minus slopes of the inverse of Phi
+    sizes = numpy.sqrt(numpy.multiply.outer(told.diagonal(), told.diagonal()))
+    of_theta = numpy.linalg.pinv(told / sizes) / sizes
+    more = numpy.einsum("ab,anp,nm,bmq->pq", of_theta, VA, W - A @ Phi @ A.T, VA, optimize=True)
     return scale * Phi @ A.T @ y, scale**2 * (Phi + 2 * Phi @ more @ Phi), (scale**2 * Phi, scale**2 * Phi @ D @ Phi, of_theta)
-
-
-def _independent(y, groups):
-    """The same of groups without a common animal. With this _contrast() is the test of Welch."""
-    counts = numpy.bincount(groups)
-    scatter = numpy.array([numpy.var(y[groups == group], ddof=1) for group in range(len(counts))])
-    Phi = numpy.diag(scatter / counts)
-    slopes = numpy.array([numpy.diag(row) for row in numpy.diag(1 / counts)])
-    return numpy.bincount(groups, y) / counts, Phi, (Phi, slopes, numpy.diag(2 * scatter**2 / (counts - 1)))
 
 
 def _contrast(c, covariance, known):
@@ -150,19 +143,21 @@ def compare_groups(y, groups, animals=None):
     return means, _differences(used) if used else []
 
 
+def _numbered(names):
+    known = {name: i for i, name in enumerate(dict.fromkeys(names))}
+    return list(known), numpy.array([known[name] for name in names])
+
+
 def _differences(used):
     """Of (value, group, animal), each group with two animals or more."""
-    values, names, animals = zip(*used)
-    known_names, known_animals = list(dict.fromkeys(names)), {animal: i for i, animal in enumerate(dict.fromkeys(animals))}
-    y, groups, animals = numpy.array(values), numpy.array([*map(known_names.index, names)]), [known_animals[one] for one in animals]
-    repeat = len(known_animals) < len(animals)
-    means, covariance, known = _mixed(y, groups, animals) if repeat else _independent(y, groups)
-    rows = []
-    for first, second in itertools.combinations(range(len(known_names)), 2):
-        c = numpy.bincount([second], minlength=len(means)) - numpy.bincount([first], minlength=len(means))
-        variance, t = _contrast(c, covariance, known)
+    values, groups, animals = zip(*used)
+    (names, groups), (_, animals), rows = _numbered(groups), _numbered(animals), []
+    means, *known = _fitted(numpy.array(values), groups, animals)
+    for first, second in itertools.combinations(range(len(names)), 2):
+        c = numpy.eye(len(names))[second] - numpy.eye(len(names))[first]
+        variance, t = _contrast(c, *known)
         difference, half = c @ means, t * variance**0.5
-        rows.append({"group": known_names[second], "minus": known_names[first], "difference": difference,
+        rows.append({"group": names[second], "minus": names[first], "difference": difference,
                      "lower_95": difference - half, "upper_95": difference + half,
-                     **dict(zip(("ratio", "ratio_lower_95", "ratio_upper_95"), _ratio(c, means, covariance, known)))})
+                     **dict(zip(("ratio", "ratio_lower_95", "ratio_upper_95"), _ratio(c, means, *known)))})
     return rows

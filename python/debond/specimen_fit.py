@@ -16,10 +16,10 @@ from .page_data import NoResults, read_json
 from .scene import Scene
 
 
-def _identity(text, specimen, files):
-    """What results of a specimen belong to: template, row, content of files."""
-    parts = _debond.version, text, specimen.name, specimen.group, specimen.curve, *map(digest_of, files)
-    return hashlib.sha256(repr(parts).encode()).hexdigest()
+def identity_of(entries, *parts):
+    """What results belong to: this version, these parts, and the content of the files that entries name."""
+    files = [entry.value for entry in entries if os.path.isfile(entry.value) and os.access(entry.value, os.R_OK)]
+    return hashlib.sha256(repr((_debond.version, *parts, *map(digest_of, files))).encode()).hexdigest()
 
 
 def task_of(specimen, template, table, directory):
@@ -27,9 +27,8 @@ def task_of(specimen, template, table, directory):
     curve = os.path.join(os.path.dirname(table), specimen.curve)
     own = [f"{name}={text}" for name, text in specimen.entries.items()]
     entries = _debond.changed(template, [*own, "Task=calibrate", "Output/Reference curve=" + curve])
-    files = [entry.value for entry in entries if os.path.isfile(entry.value) and os.access(entry.value, os.R_OK)]
     text = _debond.text_of(_debond.changed(entries, ["Output/Reference curve=" + specimen.curve]))
-    return _debond.text_of(entries), os.path.join(directory, specimen.name), _identity(text, specimen, files)
+    return _debond.text_of(entries), os.path.join(directory, specimen.name), identity_of(entries, text, specimen.name, specimen.group, specimen.curve)
 
 
 def finished(task):

@@ -17,7 +17,7 @@ import numpy
 import _debond
 import debond
 from debond import peaks, specimens as module
-from debond.errors import InputError
+from debond.errors import InputError, RunError
 from debond.specimen_table import Specimen
 
 source, scratch = (os.path.abspath(path) for path in sys.argv[1:3])
@@ -70,6 +70,7 @@ def check_example():
     check_influence({one["entry"].rpartition(" / ")[2]: one for one in about["influence"]}, about["at"])
     with open(os.path.join(scratch, "example", "report.html"), encoding="utf-8") as file:
         page = file.read()
+    check(about["beyond"] == 1 and about["noise_is_known"] and about["is_monotone"] and not about["rises"] and about["of_cubic"] < 0.1, f"{about}")
     check("What a peak cannot tell" in page and "none of these: the curve has only their combination" in page and
           page.count("<figure") == 2, "the page")
 
@@ -125,8 +126,8 @@ def check_pull():
 
 def function_of(mark, peak):
     """The peak function of a template, with a closed form in the place of runs."""
-    template = peaks.Template(_debond.read_text(mark, "mark"))
-    return peaks.functions_of(template, [()], lambda pairs: {(key, x): (peak(template.value(x)), math.nan, []) for key, x in pairs})[()]
+    unknowns = peaks.unknown_of(_debond.read_text(mark, "mark"))
+    return peaks.functions_of(unknowns, [()], lambda pairs: {(key, x): (peak(x), math.nan, []) for key, x in pairs})[0][()]
 
 
 def check_functions():
@@ -145,6 +146,14 @@ def check_functions():
     both = [0.4 - math.sqrt(0.05), 0.4 + math.sqrt(0.05)]
     check(not function.is_monotone and not found["told"] and numpy.allclose(function.values(48.0), both, atol=2e-3), f"{both}: {found}")
     check(found["reason"].endswith("have the same peak") and f"{found['value']:.2f}" == f"{both[0]:.2f}", f"{found}")
+    # where runs fail for some, the others go on
+    unknowns = peaks.unknown_of(_debond.read_text(PHI, "mark"))
+    good, failed = peaks.functions_of(unknowns, "ab", lambda pairs: {(key, x): RunError("why") if (key, x) == ("b", 1) else (x, math.nan, [])
+                                                                     for key, x in pairs})
+    check([*good] == ["a"] and str(failed["b"]).endswith("Bonding degree = 1, which narrower bounds leave out: why"), f"{good}, {failed}")
+    # a cubic need not be better than the model is
+    rough = peaks.functions_of(unknowns, "a", lambda pairs: {(key, x): (50 + 3 * (x > 0.4), 8.0, []) for key, x in pairs})[0]["a"]
+    check(len(rough.x) == 5 and rough.error(0.4) > 8, f"{len(rough.x)} runs where the model is off by 8 N mm")
     flat = function_of(PHI, lambda phi: 50 + 0.1 * phi).row(50.05, 2.5)
     check(not flat["told"], f"a peak that tells nothing: {flat}")
 

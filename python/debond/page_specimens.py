@@ -27,16 +27,16 @@ def _axis(values, ends_of_means, is_logarithmic):
     return lambda value: (to(value) - low) / (high - low), marks
 
 
-def forest_of(unknown, parameters, pooled):
+def forest_of(unknown, parameters, pooled, as_dots=False):
     """What the template draws of an unknown: a line for each specimen with its interval, by group, and below each group and
-    below all their means. None without a value."""
+    below all their means; or, as dots, one line for all of a group. None without a value."""
     own = [row for row in parameters if row["unknown"] == unknown]
     means = {row["group"]: row for row in pooled if row["unknown"] == unknown}
     told = [row for row in own if row["told"] == "true"]
     is_logarithmic = own[0]["logarithmic"] == "true"
 
     def drawable(rows, *names):
-        values = [number(row[name]) for row in rows for name in names]
+        values = [number(row.get(name)) for row in rows for name in names]
         return [value for value in values if math.isfinite(value) and (value > 0 or not is_logarithmic)]
 
     ends = drawable(own, "value") + drawable(told, "lower_95", "upper_95")
@@ -48,55 +48,44 @@ def forest_of(unknown, parameters, pooled):
         """From 0 to 1; None of what is not known."""
         return min(1.0, max(0.0, share(number(text)))) if math.isfinite(number(text)) else None
 
-    def line(name, row, kind):
+    def line(name, row, kind, rows=()):
         value, is_told = row["value" if kind == "one" else "mean"], row.get("told", "true") == "true"
         ends = [place(row[end]) if is_told else None for end in ("lower_95", "upper_95")]
         return {"text": name, "kind": kind, "value": value, "at": place(value), "row": row, "is_told": is_told,
-                "ends": None if None in ends or ends[0] == ends[1] else ends}
+                "dots": [place(one["value"]) for one in rows], "ends": None if None in ends or ends[0] == ends[1] else ends}
 
     lines = []
     for group in dict.fromkeys(row["group"] for row in own):
-        lines += [line(row["specimen"], row, "one") for row in own if row["group"] == group]
-        lines += [line(group or "no group", row, "mean") for name, row in means.items() if name == group]
-    lines += [line(ALL, row, "mean") for name, row in means.items() if name == ALL]
-    return {"unknown": unknown, "unit": own[0]["unit"], "lines": lines, "is_logarithmic": is_logarithmic,
+        rows = [row for row in own if row["group"] == group]
+        lines += [line(row["specimen"], row, "one") for row in rows if not as_dots]
+        lines += [line(group or "no group", row, "mean", rows * as_dots) for name, row in means.items() if name == group]
+    lines += [line(ALL, row, "mean") for name, row in means.items() if name == ALL and not as_dots]
+    return {"unknown": unknown, "unit": own[0].get("unit"), "lines": lines, "is_logarithmic": is_logarithmic,
             "ticks": [(share(value), text) for value, text in marks]}
 
 
-def dots_of(unknown, values, means):
-    """The same of groups: a line with the values of each, (group, value), and below it the mean."""
-    own = [row for row in means if row["unknown"] == unknown]
-    ends = [number(row[name]) for row in own for name in ("mean", "lower_95", "upper_95")]
-    share, marks = _axis([value for _, value in values], list(filter(math.isfinite, ends)), False)
-    lines = []
-    for row in own:
-        interval = [share(number(row[end])) for end in ("lower_95", "upper_95")] if short(row["lower_95"]) else None
-        lines += [{"text": row["group"], "kind": "dots", "value": "", "at": None, "row": row, "ends": None, "is_told": True,
-                   "dots": [share(value) for group, value in values if group == row["group"]]},
-                  {"text": "mean", "kind": "mean", "value": row["mean"], "at": share(number(row["mean"])), "row": row, "is_told": True,
-                   "ends": interval and [min(1.0, max(0.0, end)) for end in interval]}]
-    return {"unknown": unknown, "unit": own[0]["unit"], "lines": lines, "ticks": [(share(value), text) for value, text in marks]}
+def in_words(row, name, unit, ends=("lower_95", "upper_95"), digits=3):
+    """"12.3 N mm (3.1 to 21.5)" of a row of a table, in a list; an empty one where it has no such number."""
+    low, high = (short(row[end], digits) for end in ends)
+    return [with_unit(row[name], unit, digits) + (f" ({low} to {high})" if low and high else " (interval cannot be told)")] * bool(short(row[name]))
 
 
 def difference_in_words(row):
     """"etched minus machined: 12.3 N mm (3.1 to 21.5); 1.1 times (1.02 to 1.19)", of what is known."""
-    def words(name, unit, *ends):
-        ends = [short(row[end], 3) for end in ends]
-        return [with_unit(row[name], unit, 3) + (f" ({' to '.join(ends)})" if all(ends) else " (interval cannot be told)")] * bool(short(row[name]))
-
-    difference = words("difference", row["unit"], "lower_95", "upper_95")
+    difference = in_words(row, "difference", row["unit"])
     return f"{row['group']} {'minus' if difference else 'over'} {row['minus']}: " + "; ".join(
-        [*difference, *words("ratio", "times", "ratio_lower_95", "ratio_upper_95")])
+        difference + in_words(row, "ratio", "times", ("ratio_lower_95", "ratio_upper_95")))
 
 
 def context_of_groups(directory):
     """What the template groups.html shows."""
     means, differences = (rows_of(read_table(os.path.join(directory, name))) for name in ("groups.csv", "differences.csv"))
     about = read_json(os.path.join(directory, "groups.json"))
-    unknowns = list(dict.fromkeys(row["unknown"] for row in means))
+    values = [dict(zip(("unknown", "group", "value", "told", "logarithmic"), (*own, "true", "false"))) for own in about["values"]]
+    unknowns = {row["unknown"]: row["unit"] for row in means}
     return {"title": f"Groups of {about['table']}", "finished": True, "problem": "", "reason": f"by {about['by']}", "warnings": [],
-            "forests": [dots_of(name, [own[1:] for own in about["values"] if own[0] == name], means) for name in unknowns],
-            "means": means, "differences": differences, "unknowns": unknowns, "notes": about["notes"],
+            "forests": [{**forest_of(name, values, means, True), "unit": unit} for name, unit in unknowns.items()],
+            "means": means, "differences": differences, "unknowns": list(unknowns), "notes": about["notes"],
             "origin": origin_of(about), "files": files_of(directory)}
 
 

@@ -12,6 +12,7 @@ specimens of one, makes groups be compared by animals.
 """
 
 import difflib
+import math
 import os
 import re
 from dataclasses import dataclass
@@ -50,21 +51,40 @@ class Specimen:
     animal: str = ""
 
 
-def lines_of(filename, expected=f"a line of names, {', '.join(OWN[:3])} or entries, and a row for each specimen"):
-    """(what the line is called, its items) of all lines that are not empty; and what separates these."""
+class Table:
+    """A line of names, and a row for each specimen: names; rows, pairs of what they are called and as many items. Raises InputError."""
 
-    def refuse(why):
-        raise InputError(f"{filename}: {why}")
+    def __init__(self, filename):
+        self.filename = os.fspath(filename)
+        sheet, text = texts_of(self.filename, self._refuse)[0]
+        lines = [(number, line) for number, line in enumerate(text.lstrip("\ufeff").split("\n"), 1)
+                 if line.strip(" \t;,") and not line.lstrip().startswith("#")]
+        if not lines:
+            self._refuse("this table is empty: expected a line of names, and a row for each specimen")
+        # what separates most items of the line of names
+        self.separator = "\t" if sheet else max(";\t,", key=lambda separator: len(split(lines[0][1], separator)))
+        word = f"{self.filename}: " + (f"sheet '{sheet}', row" if sheet else "line")
+        (self.place, names), *self.rows = [(f"{word} {number}", filled(split(line, self.separator))) for number, line in lines]
+        self.names = list(map(with_plain_marks, names))
+        for place, items in self.rows:
+            if len(items) > len(names):
+                raise InputError(f"{place}: read {len(items)} items: expected at most {len(names)}, as many as there are names")
+            items += [""] * (len(names) - len(items))
 
-    sheet, text = texts_of(filename, refuse)[0]
-    lines = [(number, line) for number, line in enumerate(text.lstrip("\ufeff").split("\n"), 1)
-             if line.strip(" \t;,") and not line.lstrip().startswith("#")]
-    if not lines:
-        refuse(f"this table is empty: expected {expected}")
-    # what separates most items of the line of names
-    separator = "\t" if sheet else max(";\t,", key=lambda separator: len(split(lines[0][1], separator)))
-    word = f"sheet '{sheet}', row" if sheet else "line"
-    return [(f"{filename}: {word} {number}", split(line, separator)) for number, line in lines], separator
+    def _refuse(self, why):
+        raise InputError(f"{self.filename}: {why}")
+
+    def numbers(self, i, nothing=None, positive=True):
+        """The values of a column, `nothing` where nothing stands."""
+        texts = [with_plain_marks(items[i]) for _, items in self.rows]
+        refuse_thousands([(place.rpartition(" ")[2], [text]) for (place, _), text in zip(self.rows, texts)], self.separator, self._refuse)
+        values = [nothing if text.lower() in ("", "nan") else value_of(text) for text in texts]
+        for (place, _), text, value in zip(self.rows, texts, values):
+            if value is None or positive and value <= 0:
+                raise InputError(f"{place}, column '{shortened(self.names[i])}': read '{shortened(text)}': expected a number"
+                                 + " above 0, of loads their magnitude" * positive + ", or nothing" * (nothing is not None)
+                                 + (remark_on(text) if text and value is None else ""))
+        return values
 
 
 def _load_in(name):
@@ -77,18 +97,18 @@ def _load_in(name):
 
 def has_peaks(filename) -> bool:
     """Whether a table has peaks in the place of curves. Raises InputError."""
-    return "peak" in map(_load_in, map(with_plain_marks, lines_of(filename)[0][0][1]))
+    return "peak" in map(_load_in, Table(filename).names)
 
 
 def _column_of(name, known, place):
     """What a column holds: one of OWN, "peak", "sd", or the full name of an entry."""
-    plain, _, unit = with_plain_marks(name).partition("[")
+    plain, _, unit = name.partition("[")
     plain, unit = plain.strip(), unit.rstrip("] ")
     if plain.lower() in OWN:
         return plain.lower()
     entry = " / ".join(part.strip() for part in plain.split("/"))
-    if entry not in known and _load_in(with_plain_marks(name)):
-        return _load_in(with_plain_marks(name))
+    if entry not in known and _load_in(name):
+        return _load_in(name)
     if entry not in known or entry in _NOT_HERE:
         close = difflib.get_close_matches(entry, known, 1, 0.5)
         like = f", as {close[0]}" if close and close[0] not in _NOT_HERE else ""
@@ -100,44 +120,24 @@ def _column_of(name, known, place):
     return entry
 
 
-def _columns_of(names, known, place):
-    columns = [_column_of(name, known, place) for name in names]
+def _columns_of(table, known):
+    columns = [_column_of(name, known, table.place) for name in table.names]
     for column in columns:
         if columns.count(column) > 1:
-            raise InputError(f"{place}: column '{column}': there are two of them, expected one")
-    if {"curve", "peak"} <= set(columns) or "sd" in columns and "peak" not in columns:
-        raise InputError(f"{place}: read {', '.join(map(repr, names))}: expected either curves, or peaks and if need be the standard "
-                         "deviation of their error")
-    for column in ("specimen", "peak" if "peak" in columns else "curve"):
-        if column not in columns:
-            raise InputError(f"{place}: column '{column}' is missing: read {', '.join(map(repr, names))}; expected specimen, "
-                             "curve, or in its place a peak with its unit, as 'peak [N cm]', and if need be group and entries of the scene")
+            raise InputError(f"{table.place}: column '{column}': there are two of them, expected one")
+    if "specimen" not in columns or ("curve" in columns) == ("peak" in columns) or "sd" in columns and "curve" in columns:
+        raise InputError(f"{table.place}: read {', '.join(map(repr, table.names))}: expected specimen, either curve or a peak with its unit, as "
+                         "'peak [N cm]', with a peak the SD of its error if that is known, and if need be group and entries of the scene")
     return columns
 
 
-def _loads_of(place, columns, names, rows, curve, separator):
-    """For each row its {"peak", "sd"} in N mm or N, sd 0 where nothing stands. curve: what the scene's is over, and its load."""
-    result = [{} for _ in rows]
-    quantity = "moment" if curve[1].endswith("Nmm") else "force"
-
-    def refuse(why):
-        raise InputError(f"{place.rpartition(': ')[0]}: {why}")
-
-    for i, (column, name) in enumerate(zip(columns, map(with_plain_marks, names))):
-        if column not in ("peak", "sd"):
-            continue
-        if unit_in(name).quantity != quantity:
-            raise InputError(f"{place}: column '{shortened(name)}': this scene is about {curve[1]} over {curve[0]}: expected a {quantity}, "
-                             "or another Output / Curve")
-        items = [(where.rpartition(" ")[2], [with_plain_marks(fields[i])] if i < len(fields) else [""]) for where, fields in rows]
-        refuse_thousands(items, separator, refuse)
-        for (where, _), (_, (item,)), own in zip(rows, items, result):
-            value = value_of(item) if item or column == "peak" else 0.0
-            if value is None or value < 0 or (item and value == 0):
-                raise InputError(f"{where}, column '{shortened(name)}': read '{shortened(item)}': expected a number above 0, of loads their "
-                                 f"magnitude{remark_on(item) if item and value is None else ''}")
-            own[column] = value * unit_in(name).factor
-    return result
+def _loads_of(table, i, curve):
+    """The numbers of a column in N mm or N, 0 where nothing stands. curve: what the scene's is over, and its load."""
+    name, quantity, is_peak = table.names[i], "moment" if curve[1].endswith("Nmm") else "force", _load_in(table.names[i]) == "peak"
+    if unit_in(name).quantity != quantity:
+        raise InputError(f"{table.place}: column '{shortened(name)}': this scene is about {curve[1]} over {curve[0]}: expected a {quantity}, "
+                         "or another Output / Curve")
+    return [unit_in(name).factor * value if value == value else 0.0 for value in table.numbers(i, None if is_peak else math.nan)]
 
 
 def _specimen(place, fields, known, has_decimal_commas, directory):
@@ -178,36 +178,23 @@ def _scene_of(template, changes=()):
     return _debond.Scene(_debond.changed(entries, starts), "", _debond.Team(0))
 
 
-def _check_entries(specimen, template):
-    """Whether the scene may have these values."""
-    try:
-        _scene_of(template, [f"{column}={text}" for column, text in specimen.entries.items()])
-    except InputError as error:
-        raise InputError(f"{specimen.place}: {error}") from None
-
-
 def read_specimens(filename, template) -> List[Specimen]:
     """The rows of a table, for a template: the entries of a scene with unknowns. Raises InputError, one line with file, line,
     column, what was read and what is allowed."""
-    filename = os.fspath(filename)
-    scene = _scene_of(template)
-    known = scene.values
-    ((place, names), *rows), separator = lines_of(filename)
-    columns, specimens = _columns_of(filled(names), known, place), []
-    loads = _loads_of(place, columns, names, rows, scene.curve, separator)
-    for (place, items), load in zip(rows, loads):
-        items = filled(items)
-        if len(items) > len(columns):
-            raise InputError(f"{place}: read {len(items)} items: expected at most {len(columns)}, as many as there are names")
-        fields = {**dict.fromkeys(columns, ""), **dict(zip(columns, items))}
-        specimen = _specimen(place, fields, known, separator != ",", os.path.dirname(filename))
-        specimen.peak, specimen.sd = load.get("peak"), load.get("sd")
-        for other in specimens:
-            if other.name.lower() == specimen.name.lower():
-                raise InputError(f"{place}, column 'specimen': read '{specimen.name}': expected another name: "
-                                 f"{other.place.rsplit(': ', 1)[-1]} has this one")
-        _check_entries(specimen, template)
-        specimens.append(specimen)
+    scene, table, specimens = _scene_of(template), Table(filename), {}
+    columns = _columns_of(table, scene.values)
+    loads = {column: _loads_of(table, i, scene.curve) for i, column in enumerate(columns) if column in ("peak", "sd")}
+    for i, (place, items) in enumerate(table.rows):
+        specimen = _specimen(place, dict(zip(columns, items)), scene.values, table.separator != ",", os.path.dirname(table.filename))
+        specimen.peak, specimen.sd = (loads[column][i] if column in loads else None for column in ("peak", "sd"))
+        other = specimens.setdefault(specimen.name.lower(), specimen)
+        if other is not specimen:
+            raise InputError(f"{place}, column 'specimen': read '{specimen.name}': expected another name: "
+                             f"{other.place.rsplit(': ', 1)[-1]} has this one")
+        try:  # whether the scene may have these values
+            _scene_of(template, [f"{column}={text}" for column, text in specimen.entries.items()])
+        except InputError as error:
+            raise InputError(f"{place}: {error}") from None
     if not specimens:
-        raise InputError(f"{filename}: there is no row below the names: expected one for each specimen")
-    return specimens
+        raise InputError(f"{table.filename}: there is no row below the names: expected one for each specimen")
+    return list(specimens.values())

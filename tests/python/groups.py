@@ -281,7 +281,7 @@ BAD = (
     (("--value", "peak", "--area", "3"), "expected a force with --diameter"),
     (("--value", "d [mm]", "--diameter", "3", "--length", "4"), "expected a force with --diameter"),
     (("--value", "peak", "--area", "d", "--radius", "2"), "--area 'd [mm]': expected mm2"),
-    (("--value", "peak", "--diameter", "-3", "--length", "4"), "--diameter: read -3: expected a size above 0"),
+    (("--value", "peak", "--diameter", "-3", "--length", "4"), "--diameter -3: expected a size above 0"),
 )
 
 
@@ -289,6 +289,9 @@ def check_bad():
     for options, expected in BAD:
         said = command("peaks.csv", *(() if "--by" in options else ("--by", "surface")), *options, code=1)
         check(expected in said and said.count("\n") == 1, f"{options}: {said}")
+    with open("commas.csv", "w", encoding="utf-8") as file:
+        file.write("group,peak [N]\na,1,5\n")
+    check("commas.csv: line 2: read 3 items: expected at most 2" in command("commas.csv", "--value", "peak", code=1), "commas of two kinds")
     with open("empty.csv", "w", encoding="utf-8") as file:
         file.write("group,peak\na,nan\n")
     check("peak: no row has a value and a group" in command("empty.csv", "--value", "peak", code=1), "an empty table")

@@ -190,8 +190,8 @@ def check_coverage():
 
 HEAD = "specimen;Fmax [N cm]\n"
 BAD = (
-    ("specimen;curve;Fmax [Ncm]\nA;a.csv;1\n", "expected either curves, or peaks"),
-    ("specimen;SD [N cm]\nA;1\n", "expected either curves, or peaks"),
+    ("specimen;curve;Fmax [Ncm]\nA;a.csv;1\n", "expected specimen, either curve or a peak"),
+    ("specimen;SD [N cm]\nA;1\n", "expected specimen, either curve or a peak"),
     ("specimen;Fmax [N]\nA;1\n", "column 'Fmax [N]': this scene is about torque_Nmm over angle_deg: expected a moment"),
     ("specimen;peak\nA;1\n", "column 'peak': expected specimen, curve, group, or an entry of the scene"),
     (HEAD + "A;\n", "line 2, column 'Fmax [N cm]': read '': expected a number above 0"),

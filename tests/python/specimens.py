@@ -270,9 +270,9 @@ def check_closed_pipe():
 
 HEAD = "specimen,group,curve,Implant/Radius\n"
 BAD = (
-    ("", "this table is empty: expected a line of names, specimen, curve, group or entries"),
+    ("", "this table is empty: expected a line of names, and a row for each specimen"),
     (HEAD, "there is no row below the names: expected one for each specimen"),
-    ("specimen,group\nA,1\n", "line 1: column 'curve' is missing: read 'specimen', 'group'; expected specimen, curve,"),
+    ("specimen,group\nA,1\n", "line 1: read 'specimen', 'group': expected specimen, either curve or a peak"),
     ("specimen,curve,Implant/Radios\nA,a.csv,1\n",
      "line 1: column 'Implant/Radios': expected specimen, curve, group, or an entry of the scene, as Implant / Radius"),
     ("specimen,curve,Implant/Radius [m]\nA,a.csv,1\n",

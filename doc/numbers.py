@@ -29,7 +29,7 @@ import zlib
 
 os.chdir(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
 sys.path.append('python')
-from debond.page_data import curve_file, rows_file  # noqa: E402
+from debond.page_data import curve_file, rows_file, short  # noqa: E402
 
 BLOCK = re.compile(r'(<!-- numbers: (\w+) -->)(.*?)(<!-- end -->)', re.S)
 NUMBER = re.compile(r'(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?')
@@ -394,13 +394,13 @@ def bench():
     rows = []
     for rig in sorted(set(glob.glob('prm/bench/*.csv')) - {'prm/bench/cement_bone_softening.csv'}):
         out = os.path.join(options.results, 'bench_' + os.path.basename(rig)[:-4])
-        subprocess.run([sys.executable, '-m', 'debond', 'bench', rig, '--out', out, *['--force'] * options.force], check=True, stdout=subprocess.DEVNULL,
-                       env={**os.environ, 'PYTHONPATH': os.path.join(os.path.dirname(options.debond), 'python')})
+        subprocess.run([sys.executable, '-m', 'debond', 'bench', rig, '--out', out, *['--force'] * options.force], check=True,
+                       stdout=subprocess.DEVNULL, env={**os.environ, 'PYTHONPATH': os.path.join(os.path.dirname(options.debond), 'python')})
         with open(out + '/bench.json', encoding='utf-8') as text:
             results = json.load(text)
         for row in results['rows']:
             rows.append(['`%s`' % os.path.basename(rig), row['group'] + (' [%s]' % row['unit'] if row['unit'] else ''), row['mean'] or '–',
-                         *('%.3g' % row[name] for name in ('nominal', 'least', 'most')), row['verdict']])
+                         *(short(row[name], 3) for name in ('nominal', 'least', 'most')), row['verdict']])
     few = re.compile('rat_femur(?!.*(blasted, (9|84)|phosphate, 5) days)|steel_post.*force over')
     shown = [tuple(row[:2]) for row in rows if not few.search(' '.join(row[:2]))]
     return long_table('bench', ['rig', 'result', 'published', 'computed', 'least', 'most', 'verdict'], rows, shown)

@@ -86,14 +86,14 @@ def main(program, post) -> int:
     expect(2 * os.path.getsize("post_bone_coarser.msh") < 1.5 * os.path.getsize("post_bone.msh"), "which are fewer")
     checked = subprocess.run([program, "post.prm", "--check"], capture_output=True, text=True, check=False)
     expect(checked.returncode == 1 and "  set Young modulus =" in checked.stderr and "15000 to 23000" in checked.stderr, "the scene asks for what is missing")
-    checked = subprocess.run([program, "post.prm", "--check", *(word for entry in (
+    complete = [program, "post.prm", "--check", *(word for entry in (
         "Bone/Young modulus=1000", "Interface/Normal stiffness=600", "Interface/Friction coefficient broken=0.3",
-        "Interface/Friction coefficient unbroken=0.5", "Interface/Characteristic slip distance=0.02", "Interface/Bonding/Bonding degree=1") for word in ("--set", entry))],
-        capture_output=True, text=True, check=False)
+        "Interface/Friction coefficient unbroken=0.5", "Interface/Characteristic slip distance=0.02", "Interface/Bonding/Bonding degree=1") for word in ("--set", entry))]
+    checked = subprocess.run(complete, capture_output=True, text=True, check=False)
     if checked.returncode:
         print(checked.stderr)
     expect(checked.returncode == 0, "and is complete with it")
-    checked = subprocess.run([program, "post.prm", "--check", "--set", "Expert/Bone/Coarser mesh file=none"], capture_output=True, text=True, check=False)
+    checked = subprocess.run([*complete, "--set", "Expert/Bone/Coarser mesh file=none"], capture_output=True, text=True, check=False)
     expect("Expert / Bone / Coarser mesh file: expected a file, as the other body has one" in checked.stderr, "larger cells of one body alone are refused")
 
     write("peg.step", lambda occ: occ.addCylinder(0, 0, -3, 0, 0, 4, 1), "M")

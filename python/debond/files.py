@@ -69,7 +69,7 @@ def digest_of(path) -> str:
 
 def csv_text(header, rows, digits: int = 17) -> str:
     """Text of a table as debond has them: numbers with so many digits at most (17 give them back exactly), nan for what is not
-    known, true and false."""
+    known, true and false. rows: lists, or dictionaries that have all of the header."""
 
     def text_of(item):
         if isinstance(item, bool):
@@ -77,5 +77,6 @@ def csv_text(header, rows, digits: int = 17) -> str:
         return f"{item:.{digits}g}" if isinstance(item, float) and digits < 17 else str(item)
 
     stream = io.StringIO()
-    csv.writer(stream, lineterminator="\n").writerows([header, *(map(text_of, row) for row in rows)])
+    csv.writer(stream, lineterminator="\n").writerows(
+        [header, *(map(text_of, [row[name] for name in header] if isinstance(row, dict) else row) for row in rows)])
     return stream.getvalue()

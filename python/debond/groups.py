@@ -12,15 +12,12 @@ and report.html.
 
 import collections
 import math
-import os
-
-import _debond
 
 from .errors import InputError, shortened
-from .files import csv_text, make_directory, say, write_json, write_whole
+from .files import say
 from .layout import value_of
 from .measured import plain_name
-from .page import write_page_if_possible
+from .page import write_results
 from .page_data import short, split_unit
 from .page_specimens import difference_in_words, in_words
 from .pooling import compare_groups
@@ -114,10 +111,6 @@ def main(filename, options) -> None:
     for text in (*(f"{row['unknown']}, {difference_in_words(row)}" for row in differences), *notes):
         say(text)
     if directory := options["--out"]:
-        make_directory(directory)
-        for name, columns, rows in (("groups.csv", GROUPS, means), ("differences.csv", DIFFERENCES, differences)):
-            write_whole(os.path.join(directory, name), csv_text(columns, [[row[column] for column in columns] for row in rows]))
-        write_json(os.path.join(directory, "groups.json"), {"table": filename, "by": options["--by"], "notes": notes, "values": values,
-                                                            "version": _debond.version, "provenance": _debond.provenance()})
-        write_page_if_possible(directory)
+        write_results(directory, "groups", {"table": filename, "by": options["--by"], "notes": notes, "values": values},
+                      {"groups": (GROUPS, means), "differences": (DIFFERENCES, differences)})
         say(f"Results are in {directory}/groups.csv, differences.csv and report.html")

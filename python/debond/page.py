@@ -7,7 +7,7 @@ import os
 import sys
 
 from debond import page_data
-from debond.files import say, write_whole
+from debond.files import csv_text, make_directory, say, write_json, write_whole
 from debond.page_campaigns import context_of_bench, context_of_calibration, context_of_study
 from debond.page_records import context_of_records
 from debond.page_run import context_of_run
@@ -50,6 +50,17 @@ def write_page_if_possible(directory):
         say(f"There is no page of the results: it needs the module {error.name} of Python: apt install python3-{error.name}", sys.stderr)
         return False
     return True
+
+
+def write_results(directory, name, about, tables):
+    """A directory with NAME.json, tables {name: (columns, rows)} as CSV, and their page. Raises RunError."""
+    import _debond
+
+    make_directory(directory)
+    for file, table in tables.items():
+        write_whole(os.path.join(directory, file + ".csv"), csv_text(*table))
+    write_json(os.path.join(directory, name + ".json"), {**about, "version": _debond.version, "provenance": _debond.provenance()})
+    write_page_if_possible(directory)
 
 
 def main(directory, options):

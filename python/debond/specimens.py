@@ -12,17 +12,14 @@ kept. The command ends with 2 if a specimen failed, and with 1 if the table or t
 """
 
 import math
-import os
 import statistics
 import sys
 from typing import Dict
 
-import _debond
-
 from .errors import InputError, RunError, path_of
 from .executors import check_workers, results_of
-from .files import csv_text, make_directory, say, write_json, write_whole
-from .page import write_page_if_possible
+from .files import make_directory, say
+from .page import write_results
 from .groups import DIFFERENCES
 from .pooling import compare_groups, pool
 from .peaks import fit_peaks, with_default_unknown
@@ -36,22 +33,22 @@ POOLED = ("unknown", "group", "specimens", "left_out", "mean", "lower_95", "uppe
           "plain_mean", "plain_sd")
 
 
-def _frame(rows, columns):
-    import pandas
-
-    return pandas.DataFrame(rows, columns=columns)
-
-
 class Specimens:
     """What fit_specimens() finds: parameters.csv, with a row for each specimen and unknown, and pooled.csv, with one for each
     unknown and group, and for all, and differences.csv of groups, as frames of pandas. failures: {specimen: why it failed}; directory: of the results."""
 
-    def __init__(self, parameters, pooled, differences, failures: Dict[str, str], directory: str):
-        self._parameters, self._pooled, self._differences, self.failures, self.directory = parameters, pooled, differences, failures, directory
+    def __init__(self, tables, failures: Dict[str, str], directory: str):
+        self._tables, self.failures, self.directory = tables, failures, directory
 
-    parameters = property(lambda self: _frame(self._parameters, PARAMETERS))
-    pooled = property(lambda self: _frame(self._pooled, POOLED))
-    differences = property(lambda self: _frame(self._differences, DIFFERENCES))
+    def _frame(self, name):
+        import pandas
+
+        columns, rows = self._tables[name]
+        return pandas.DataFrame(rows, columns=columns)
+
+    parameters = property(lambda self: self._frame("parameters"))
+    pooled = property(lambda self: self._frame("pooled"))
+    differences = property(lambda self: self._frame("differences"))
 
 
 def _searched(row, name):
@@ -72,31 +69,29 @@ def _pooled_row(unknown, group, rows):
                 [math.hypot(*(row["sd"] for row in own)) / len(own) for own in of_animals.values()])
     plain = [row["value"] for row in used]
     # of peaks: what is common to all does not average out
-    common = sum(row.get("common", 0) for row in used) / max(1, len(used))
-    places, sd = (mean.mean, *(mean.mean + sign * math.hypot(mean.upper - mean.mean, common) for sign in (-1, 1))), mean.tau
+    half = math.hypot(mean.upper - mean.mean, sum(row.get("common", 0) for row in used) / max(1, len(used)))
+    places, sd = (mean.mean, mean.mean - half, mean.mean + half), mean.tau
     if first["logarithmic"]:
         places = tuple(map(math.exp, places))
         # of a logarithmic normal distribution
         sd = places[0] * math.exp(mean.tau**2 / 2) * math.sqrt(math.expm1(mean.tau**2))
-    return [unknown, group, len(used), len(rows) - len(used), *map(float, places), float(sd), first["unit"],
-            "logarithm" if first["logarithmic"] else "value", float(mean.tau), statistics.fmean(plain) if plain else math.nan,
-            statistics.stdev(plain) if len(plain) > 1 else math.nan]
+    return dict(zip(POOLED, (unknown, group, len(used), len(rows) - len(used), *map(float, places), float(sd), first["unit"],
+                             "logarithm" if first["logarithmic"] else "value", float(mean.tau), statistics.fmean(plain) if plain else math.nan,
+                             statistics.stdev(plain) if len(plain) > 1 else math.nan)))
 
 
 def _differences_of(unknown, pairs):
     """Rows of differences.csv, from pairs (group, row of specimen.json). Of what is searched by its logarithm there are ratios."""
-    used = [(group, row) for group, row in pairs if _used([row])]
-    rows = compare_groups(*zip(*((_searched(row, "value"), group or "no group", row.get("animal") or None) for group, row in used)))[1] if used else []
-    for row in rows if pairs[0][1]["logarithmic"] else []:
-        row.update({ratio: math.exp(row[name]) for ratio, name in (("ratio", "difference"), ("ratio_lower_95", "lower_95"),
-                                                                   ("ratio_upper_95", "upper_95"))})
-        row.update(dict.fromkeys(("difference", "lower_95", "upper_95"), math.nan))
-    about = {"unknown": unknown, "unit": pairs[0][1]["unit"]}
-    return [[{**about, **row}[column] for column in DIFFERENCES] for row in rows]
+    used = [(_searched(row, "value"), group or "no group", row.get("animal") or None) for group, row in pairs if _used([row])]
+    rows, first = compare_groups(*zip(*used))[1] if used else [], pairs[0][1]
+    for row in rows if first["logarithmic"] else []:
+        for ratio, name in zip(DIFFERENCES[6:9], DIFFERENCES[3:6]):
+            row[ratio], row[name] = math.exp(row[name]), math.nan
+    return [{"unknown": unknown, "unit": first["unit"], **row} for row in rows]
 
 
 def _tables(specimens, results):
-    """Rows of parameters.csv, of pooled.csv and of differences.csv."""
+    """Of each table columns and rows."""
     parameters, of_unknowns = [], {}
     unknown = dict.fromkeys(("value", "lower_95", "upper_95", "e_rel"), math.nan)
     nothing = {**dict.fromkeys(PARAMETERS, ""), **unknown, "fits": False}
@@ -104,8 +99,7 @@ def _tables(specimens, results):
         result = results[specimen.name]
         about = {**nothing, **result, "specimen": specimen.name, "group": specimen.group, "curve": specimen.curve}
         for row in result.get("rows", [{}]):
-            known = {**about, **{name: value for name, value in row.items() if value is not None}}
-            parameters.append([known[name] for name in PARAMETERS])
+            parameters.append({**about, **{name: value for name, value in row.items() if value is not None}})
             if row:
                 of_unknowns.setdefault(row["unknown"], []).append((specimen.group, {**row, "animal": specimen.animal}))
     pooled, differences = [], []
@@ -115,7 +109,7 @@ def _tables(specimens, results):
             pooled.append(_pooled_row(name, group, [row for own, row in pairs if own == group]))
         pooled.append(_pooled_row(name, ALL, [row for _, row in pairs]))
         differences += _differences_of(name, pairs)
-    return parameters, pooled, differences
+    return {"parameters": (PARAMETERS, parameters), "pooled": (POOLED, pooled), "differences": (DIFFERENCES, differences)}
 
 
 def fit_specimens(template, table, directory=None, *, executor=None, jobs: int = 1, say=lambda text: None) -> Specimens:
@@ -142,16 +136,10 @@ def fit_specimens(template, table, directory=None, *, executor=None, jobs: int =
     else:
         results, peaks = fit_peaks(specimens, entries, directory, executor, jobs, say)
     results = {name: _said(result) for name, result in results.items()}
-    parameters, pooled, differences = _tables(specimens, results)
-    failures = {name: result["reason"] for name, result in results.items() if "reason" in result}
-    about = {"title": said.get("Title", ""), "table": table, "specimens": len(specimens), "failures": failures,
-             "peaks": peaks, "version": _debond.version, "provenance": _debond.provenance()}
-    write_whole(os.path.join(directory, "parameters.csv"), csv_text(PARAMETERS, parameters))
-    write_whole(os.path.join(directory, "pooled.csv"), csv_text(POOLED, pooled))
-    write_whole(os.path.join(directory, "differences.csv"), csv_text(DIFFERENCES, differences))
-    write_json(os.path.join(directory, "specimens.json"), about)
-    write_page_if_possible(directory)
-    return Specimens(parameters, pooled, differences, failures, directory)
+    failures, tables = {name: result["reason"] for name, result in results.items() if "reason" in result}, _tables(specimens, results)
+    write_results(directory, "specimens", {"title": said.get("Title", ""), "table": table, "specimens": len(specimens), "failures": failures,
+                                           "peaks": peaks}, tables)
+    return Specimens(tables, failures, directory)
 
 
 def _said(result):

@@ -169,7 +169,7 @@ def share_held(mark, peak, truth, sd_between, noise, has_column=False, n=1000, m
                               sd=0.05 * peak(value) if has_column else None) for i, value in enumerate(values)]
         names = [one.name for one in specimens]
         rows = peaks.rows_of_peaks(specimens, dict.fromkeys(names, function), dict.fromkeys(names, noise))
-        row = dict(zip(module.POOLED, module._pooled_row("u", "all", list(rows.values()))))
+        row = module._pooled_row("u", "all", list(rows.values()))
         held, left_out = held + (row["lower_95"] <= truth <= row["upper_95"]), left_out + row["left_out"]
     check(left_out <= most_left_out * 30 * n, f"{left_out} of {30 * n} values left out")
     return held

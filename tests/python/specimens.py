@@ -100,7 +100,7 @@ def check_what_is_pooled():
     row = {"told": True, "at_bound": False, "logarithmic": True, "unit": "mm", "value": 2.0, "sd": 0.1}
     others = {"value": 8.0}, {"told": False}, {"at_bound": True}, {"sd": None}, {"sd": 0.0}
     rows = [row, *({**row, **other} for other in others)]
-    unknown, group, n, left_out, mean, lower, upper, sd, unit, scale, tau, *plain = module._pooled_row("a", "g", rows)
+    unknown, group, n, left_out, mean, lower, upper, sd, unit, scale, tau, *plain = module._pooled_row("a", "g", rows).values()
     check((n, left_out, unit, scale) == (2, 4, "mm", "logarithm") and abs(mean - 4) < 1e-12, f"{n}, {left_out}, mean {mean}")
     check(abs(tau**2 - (math.log(4) ** 2 / 2 - 0.01)) < 1e-12, f"tau {tau}")
     check(abs(lower * upper - 16) < 1e-9, f"{lower} to {upper}")
@@ -108,11 +108,12 @@ def check_what_is_pooled():
     # two specimens of an animal count as their mean, and know it better
     twins = [{**row, "animal": "1"}, {**row, "animal": "1", "value": 8.0}, {**row, "animal": "2", "value": 3.0, "sd": 0.2}]
     found, expected = module._pooled_row("a", "g", twins), pool([math.log(4), math.log(3)], [0.1 / 2**0.5, 0.2])
-    check(found[2] == 3 and numpy.allclose([*found[4:7], found[10]], [*numpy.exp([expected.mean, expected.lower, expected.upper]), expected.tau]),
+    check(found["specimens"] == 3 and numpy.allclose([found[name] for name in ("mean", "lower_95", "upper_95", "tau")], [*numpy.exp([expected.mean, expected.lower, expected.upper]), expected.tau]),
           f"animals: {found}, {expected}")
     # ratios of what is searched by its logarithm are those of geometric means
     pairs = [("a", row), ("a", {**row, "value": 4.0}), ("b", {**row, "value": 8.0}), ("b", {**row, "value": 16.0}), ("b", {**row, "told": False})]
-    ((_, group, minus, *difference, ratio, lower, upper, _),) = module._differences_of("x", pairs)
+    (row,) = module._differences_of("x", pairs)
+    group, minus, *difference, ratio, lower, upper = (row[name] for name in module.DIFFERENCES[1:-1])
     half = stats.t.ppf(0.975, 2) * math.log(2) / 2**0.5
     check((group, minus) == ("b", "a") and all(map(math.isnan, difference)), f"{group} over {minus}: {difference}")
     check(numpy.allclose([ratio, lower, upper], [4, 4 * math.exp(-half), 4 * math.exp(half)]), f"{ratio}: {lower} to {upper}")

@@ -46,10 +46,9 @@ def _texts(table, wanted, option):
 
 def _sizes(table, size, text):
     """Of each row [mm or mm2], from a number or the name of a column."""
-    number = value_of(text)
-    if number is not None and number <= 0:
-        raise InputError(f"--{size} {text}: expected a size above 0")
-    if number is not None:
+    if (number := value_of(text)) is not None:
+        if number <= 0:
+            raise InputError(f"--{size} {text}: expected a size above 0")
         return [number] * len(table.rows)
     i = _column(table, text, "--" + size)
     if unit_text_in(table.names[i]) not in ("", *SIZES[size]):

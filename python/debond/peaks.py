@@ -1,8 +1,8 @@
 """One number of each specimen in the place of a curve, the largest load of its test, and the one unknown that it tells.
 
 For each set of other entries the peak is computed by runs at a few values of the unknown, once, with a monotone cubic in between
-(Fritsch and Butland; SciPy's PchipInterpolator) and more runs wherever one in the middle of two neighbours is off the cubic by
-more than TOLERANCE. The cubic is inverted exactly, also for the ends of the interval,
+(Fritsch and Butland; SciPy's PchipInterpolator), and at twice as many if one through every other of them is off the rest by more
+than TOLERANCE. The cubic is inverted exactly, also for the ends of the interval,
 
     peak -+ hypot(1.96 sd, e),   e^2 = (error of the cubic)^2 + (error of the model, by its coarser run)^2,
 
@@ -29,7 +29,7 @@ from .specimen_fit import identity_of
 from .unknowns import Unknowns
 from .variants import Variant, is_varied
 
-NODES, ROUNDS = 3, 7  # at first, with a check in the middle of two; they come to lie 2^(1 - ROUNDS) as close at most
+MOST, STEPS = 33, (8, 4, 2, 1)  # values of the unknown, and which of them, as long as a cubic through every other one is not good
 TOLERANCE = 1e-3  # of the cubic, relative to the peak: a tenth of the usual Accuracy; with an error of the model half of that
 NORMAL = 1.96
 LARGEST_SPREAD = 20  # per cent of an entry for one of noise: what is more tells nothing
@@ -96,14 +96,17 @@ def run_peak(task):
 
 
 class PeakFunction:
-    """The peak over the value of the unknown. runs: {value: (peak, error of the model)}; errors: {value: that of the cubic up to the next
-    one}."""
+    """The peak over the value of the unknown, from runs, (peak, error of the model, ...), at an odd number of places."""
 
-    def __init__(self, unknowns, runs, errors):
-        self.x, self.unknowns, self.unknown = numpy.array(sorted(runs)), unknowns, unknowns.list[0]
-        self.of_cubic, (self.peaks, self.of_model) = numpy.array([errors[x] for x in self.x[:-1]]), numpy.array([runs[x][:2] for x in self.x]).T
-        self.curve = PchipInterpolator(self.x, self.peaks)
-        self.is_monotone = abs(numpy.sign(numpy.diff(self.peaks)).sum()) == len(self.x) - 1
+    def __init__(self, unknowns, x, runs):
+        self.x, self.unknowns, self.unknown = x, unknowns, unknowns.list[0]
+        self.peaks, self.of_model = numpy.array([run[:2] for run in runs]).T
+        self.curve = PchipInterpolator(x, self.peaks)
+        checked, is_off = self.peaks[1::2], abs(PchipInterpolator(x[::2], self.peaks[::2])(x[1::2]) - self.peaks[1::2])
+        allowed = numpy.fmax(TOLERANCE * numpy.maximum(checked, 1e-2 * checked.max()), 0.5 * self.of_model[1::2])
+        # of each part twice what was found in the middle of two: enough where the peak begins like a root, too
+        self.of_cubic, self.is_good = numpy.repeat(2 * is_off, 2), (is_off <= allowed).all()
+        self.is_monotone = abs(numpy.sign(numpy.diff(self.peaks)).sum()) == len(x) - 1
 
     def values(self, peak):
         """All values with this peak."""
@@ -148,26 +151,15 @@ def places_of(unknown, n):
 
 def functions_of(unknowns, sets, run):
     """{set of other entries: PeakFunction}, and {set: why there is none}. run: {(set, value): run_peak()} of a list of such pairs."""
-    unknown, known, errors, failed = unknowns.list[0], {key: {} for key in sets}, {key: {} for key in sets}, {}
-    new = places_of(unknown, NODES).tolist()
-    parts = list(zip(new, new[1:]))
-    for _ in range(ROUNDS):
-        middles = {(a * b) ** 0.5 if unknown.logarithmic else 0.5 * (a + b): (a, b) for a, b in parts}
-        for (key, x), result in run([(key, x) for key in known for x in [*new, *middles]]).items():
-            known[key][x] = result
-            if isinstance(result, Exception):
-                failed[key] = RunError(f"{unknown.name} = {x:.6g}, which narrower bounds leave out: {result}")
-        known, new, parts = {key: own for key, own in known.items() if key not in failed}, [], []
-        for key, own in known.items():
-            cubic = PchipInterpolator(*zip(*sorted((x, one[0]) for x, one in own.items() if x not in middles)))
-            for x, (a, b) in middles.items():
-                peak, of_model, _ = own[x]
-                errors[key][a] = errors[key][x] = off = abs(float(cubic(x)) - peak)
-                if off > numpy.fmax(TOLERANCE * max(peak, 1e-2 * max(one[0] for one in own.values())), 0.5 * of_model):
-                    parts += [(a, x), (x, b)]
-        if not parts:
+    x, runs, failed = places_of(unknowns.list[0], MOST), {}, {}
+    for step in STEPS:
+        runs.update(run([(key, value) for key in sets if key not in failed for value in x[::step].tolist() if (key, value) not in runs]))
+        failed = {key: RunError(f"{unknowns.names[0]} = {value:.6g}, which narrower bounds leave out: {result}")
+                  for (key, value), result in runs.items() if isinstance(result, Exception)}
+        found = {key: PeakFunction(unknowns, x[::step], [runs[key, value] for value in x[::step].tolist()]) for key in sets if key not in failed}
+        if all(one.is_good for one in found.values()):
             break
-    return {key: PeakFunction(unknowns, own, errors[key]) for key, own in known.items()}, failed
+    return found, failed
 
 
 def rows_of_peaks(specimens, functions, noise):
@@ -175,15 +167,13 @@ def rows_of_peaks(specimens, functions, noise):
     0 if it is not known. sd and common, the errors of what is searched that are a value's own and those of all, are those at the median of
     its group: what a value weighs in a mean must not hang on its noise."""
     rows = {one.name: functions[one.name].row(one.peak, one.sd or noise[one.name] * one.peak) for one in specimens}
-    for group in {one.group for one in specimens}:
-        middle = numpy.median([rows[one.name]["value"] for one in specimens if one.group == group])
-        for one in specimens:
-            if one.group == group:
-                function = functions[one.name]
-                slope = function.slope(middle) or numpy.inf
-                sd = (one.sd or noise[one.name] * function.curve(middle)) / slope
-                # of errors that are not known all weigh the same
-                rows[one.name].update(sd=float(sd) or 1e-6, common=float(function.error(middle) / slope))
+    middles = {group: numpy.median([rows[one.name]["value"] for one in specimens if one.group == group]) for group in {one.group for one in specimens}}
+    for one in specimens:
+        function, middle = functions[one.name], middles[one.group]
+        slope = function.slope(middle) or numpy.inf
+        sd = (one.sd or noise[one.name] * function.curve(middle)) / slope
+        # of errors that are not known all weigh the same
+        rows[one.name].update(sd=float(sd) or 1e-6, common=float(function.error(middle) / slope))
     return rows
 
 
@@ -261,10 +251,10 @@ def fit_peaks(specimens, entries, directory, executor, n_jobs, say):
     middle = numpy.median([row["value"] for row in rows.values()]) or 0.5 * (unknown.lower + unknown.upper)
     influence = _influence(_text_of(entries, unknowns, next(iter(functions)), middle), unknowns, middle, Runs(executor, n_jobs))
     values, functions = places_of(unknown, 65), functions.values()
-    of_cubic, of_model = (100 * max(max(getattr(one, name)) / one.peaks.max() for one in functions) for name in ("of_cubic", "of_model"))
+    of_cubic, of_model = (100 * numpy.max([getattr(one, name).max() / one.peaks.max() for one in functions]) for name in ("of_cubic", "of_model"))
     return results, {
         "unknown": unknown.name, "unit": unknown.unit, "load_unit": unit, "at": float(middle), "warnings": list(warnings),
-        "of_cubic": of_cubic, "of_model": of_model if of_model == of_model else None,
+        "of_cubic": float(of_cubic), "of_model": float(of_model) if of_model == of_model else None,
         "beyond": sum(row["at_bound"] for row in rows.values()), "noise_is_known": all(one.sd or noise[one.name] for one in done),
         "is_monotone": all(one.is_monotone for one in functions), "influence": influence and influence[0],
         "rises": bool(influence and influence[1]), "values": values.tolist(), "peaks": [one.curve(values).tolist() for one in functions]}

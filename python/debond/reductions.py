@@ -2,6 +2,8 @@
 
 import math
 
+from debond.page_data import numbers
+
 _FACE = "a mean over the face: the bond breaks from the rim on, point by point"
 _SIDE = "a mean over the side: stress peaks at its ends, where the bond breaks first; friction under the pressure of the fit is in it"
 #: Of a load and sizes [N or N mm, mm, mm2]: strengths [MPa], as formula, function of load and sizes, and what is left out.
@@ -16,18 +18,11 @@ STRENGTHS = {
 
 def sizes_of(entries):
     """{size: mm or mm2} of the contact face of a scene, from its entries in words; empty where usual reductions know no such shape."""
-
-    def numbers(name):
-        return [float(text) for text in (entries.get(name) or "0").split(",")]
-
-    shape, (radius, *_), (inner, *_) = entries.get("Implant / Shape"), numbers("Implant / Radius"), numbers("Implant / Inner radius")
-    if shape in ("pin", "screw"):
-        return {"diameter": 2 * radius, "length": min(numbers(name)[0] for name in ("Implant / Height", "Bone / Height") if entries.get(name))}
-    if shape in ("coin", "ring"):
-        return {"area": math.pi * (radius**2 - (inner if shape == "ring" else 0)**2), "radius": radius}
-    if shape == "block":
-        return {"area": math.prod(numbers("Implant / Size")[:2])}
-    return {}
+    (radius, *_), (hole, *_), (height, *_), (bone, *_), size = (numbers(entries.get(name, "0").split(",")) for name in (
+        "Implant / Radius", "Implant / Inner radius", "Implant / Height", "Bone / Height", "Implant / Size"))
+    side = {"diameter": 2 * radius, "length": min(filter(None, (height, bone)), default=math.nan)}
+    coin, ring = ({"area": math.pi * (radius**2 - inner**2), "radius": radius} for inner in (0, hole))
+    return {"pin": side, "screw": side, "coin": coin, "ring": ring, "block": {"area": math.prod(size[:2])}}.get(entries.get("Implant / Shape"), {})
 
 
 def reduced(x, y, quantity, sizes):
@@ -35,15 +30,14 @@ def reduced(x, y, quantity, sizes):
     top = max(range(len(y)), key=lambda i: abs(y[i]), default=0)
     if not top or not y[top]:
         return []
-    x, y, unit = x[:top + 1], [abs(load) for load in y[:top + 1]], "N mm/°" if quantity == "moment" else "N/mm"
-    sizes = sizes if quantity == "moment" else {name: size for name, size in sizes.items() if name != "radius"}
-    formula, strength, left_out = STRENGTHS.get((quantity, *sizes), ("", None, ""))
-    rows = [("strength " + formula, strength(y[top], *sizes.values()), "MPa", left_out)] if strength else []
+    y, is_moment = [abs(load) for load in y[:top + 1]], quantity == "moment"
+    sizes = {name: size for name, size in sizes.items() if is_moment or name != "radius"}
+    formula, strength, left_out = STRENGTHS.get((quantity, *sizes), ("", lambda *_: math.nan, ""))
     first, second = (next(i for i, load in enumerate(y) if load >= share * y[top]) for share in (0.4, 0.8))
-    if x[first] != x[second]:
-        rows.append(("apparent stiffness, between 40 and 80 % of the peak", (y[second] - y[first]) / abs(x[second] - x[first]), unit,
-                     "that of bone, bond and support together; a measured one has that of the machine in it, too"))
     energy = abs(sum(0.5 * (y[i] + y[i + 1]) * (x[i + 1] - x[i]) for i in range(top)))
-    rows.append(("energy to the peak", math.radians(energy) if quantity == "moment" else energy, "N mm",
-                 "what the bond takes after the peak; friction and what is stored elastically are in it"))
-    return rows
+    rows = (("strength " + formula, strength(y[top], *sizes.values()), "MPa", left_out),
+            ("apparent stiffness, between 40 and 80 % of the peak", (y[second] - y[first]) / (abs(x[second] - x[first]) or math.nan),
+             "N mm/°" if is_moment else "N/mm", "that of bone, bond and support together; a measured one has that of the machine in it, too"),
+            ("energy to the peak", math.radians(energy) if is_moment else energy, "N mm",
+             "what the bond takes after the peak; friction and what is stored elastically are in it"))
+    return [row for row in rows if math.isfinite(row[1])]

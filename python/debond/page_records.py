@@ -21,7 +21,7 @@ def context_of_records(directory):
         for mark in filter(None, row["mark"].split("; ")):
             kinds.setdefault(mark.split(":")[0], []).append(row["specimen"])
     whole.series = [one for plot, _ in groups.values() for one in plot.series]
-    units = {name: split_unit(name) for name in table if name != "file"}
+    units = {name: split_unit(name) for name in ("specimen", "mark", *(name for name in table if name not in ("specimen", "mark", "file")))}
     return {"title": f"{n} records of {about['folder']}", "finished": True, "problem": f"{n_marked} marked" * (n_marked > 0),
             "reason": f"{n - n_marked} of {n} records have no mark",
             "warnings": [f"{mark}: {', '.join(names)}" for mark, names in kinds.items()],

@@ -54,11 +54,12 @@ def noise_of(load) -> float:
     return numpy.median(numpy.abs(numpy.diff(load, 2))) / stats.norm.ppf(0.75) / 6**0.5
 
 
-def _offset_of(load):
-    """The load where nothing pulls: where a line through the first ten rows begins, since it may rise at once, or the median of
-    the last ten, whichever is nearer to 0."""
-    slope, middle = numpy.polyfit(numpy.arange(10) - 4.5, load[:10], 1)
-    return min(middle - 4.5 * slope, numpy.median(load[-10:]), key=abs)
+def _offset_of(load, noise):
+    """The load where nothing pulls: where a line through the first rows begins, half of those before the load is clear of the
+    noise and ten at least, since it may rise at once, or the median of the last ten, whichever is nearer to 0."""
+    n = max(10, int(numpy.argmax(numpy.abs(load - numpy.median(load[:10])) > CLEAR * noise)) // 2)
+    slope, middle = numpy.polyfit(numpy.arange(n) - (n - 1) / 2, load[:n], 1)
+    return min(middle - (n - 1) / 2 * slope, numpy.median(load[-10:]), key=abs)
 
 
 def _line(x, load, peak, noise):
@@ -83,7 +84,8 @@ def evaluated(x, load, back: float = 0.5):
     if len(load) < FEWEST:
         top = int(numpy.argmax(load))
         return {"peak": load[top], "at": x[top], "rows": len(load)}, [f"too few samples: {len(load)} rows"]
-    noise, offset = noise_of(load), _offset_of(load)
+    noise = noise_of(load)
+    offset = _offset_of(load, noise)
     sign = -1 if offset - load.min() > max(load.max() - offset, CLEAR * noise) else 1
     up = sign * (load - offset)
     top = int(numpy.argmax(up))
@@ -125,13 +127,13 @@ def _choice_of(text):
 
 def _fields_of(paths, pattern, taken):
     """{path: {field: text}}, None in the place of the fields of a name that does not fit; and the names of fields, none taken."""
-    text = "".join(f"(?P<{field}>{own or FIELD})" if field else {"[": "(?:", "]": ")?"}.get(other, re.escape(other))
-                   for field, own, other in re.findall(r"\{(\w+)(?::((?:[^{}]|\{[^{}]*\})*))?\}|(.)", pattern))
+    parts = re.findall(r"\{(\w+)(?::((?:[^{}]|\{[^{}]*\})*))?\}|(.)", pattern)
+    text = "".join(f"(?P<{field}>{own or FIELD})" if field else {"[": "(?:", "]": ")?"}.get(other, re.escape(other)) for field, own, other in parts)
     try:
         names = re.compile(text).groupindex
     except re.error as error:
         raise InputError(f"--names '{shortened(pattern)}': {error}: expected fields as in " '"{animal}{limb}[-{trial}]"') from None
-    if pattern and not names or set(names) & set(taken):
+    if pattern and not names or set(names) & set(taken) or {"{", "}"} & {other for *_, other in parts}:
         raise InputError(f"--names '{shortened(pattern)}': expected names of fields in braces that are no columns of records.csv")
     plain = {path: os.path.splitext(path if "/" in pattern else os.path.basename(path))[0] for path in paths}
     found = {path: re.fullmatch(text, name) if names else None for path, name in plain.items()}

@@ -261,7 +261,7 @@ def check_refusals():
             "nowhere: expected a folder": ["nowhere", "--columns", COLUMNS],
             " files has such a name, the first is 'A1'": ["forms", "--columns", COLUMNS, "--names", "{a}_{b}"],
             "--names '{a}{a}': redefinition": ["forms", "--columns", COLUMNS, "--names", "{a}{a}"],
-            "--names '{a': expected names of fields in braces": ["forms", "--columns", COLUMNS, "--names", "{a"],
+            "--names '{a}{b': expected names of fields in braces": ["forms", "--columns", COLUMNS, "--names", "{a}{b"],
             "names of fields in braces that are no columns": ["forms", "--columns", COLUMNS, "--names", "{mark:.*}"],
             "--by side: expected fields of --names, a": ["forms", "--columns", COLUMNS, "--names", "{a:.*}", "--by", "side"]}.items():
         said = command(*arguments, code=1)

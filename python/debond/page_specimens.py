@@ -110,17 +110,20 @@ def context_of_specimens(directory):
     of_specimens = {name: [row for row in parameters if row["specimen"] == name] for name in names}
     title, n = about.get("title", ""), len(names)
     misfits = [name for name in names if name not in failed and of_specimens[name][0]["fits"] != "true"]
-    problem = f"{len(failed)} failed" if failed else f"{len(misfits)} do not fit" if misfits else ""
+    problem = (f"{len(failed)} failed" if failed else f"{len(misfits)} do not fit" if misfits else
+               f"{peaks['beyond']} beyond the model" if peaks.get("beyond") else "")
+    n_told = sum(any(row["told"] == "true" for row in rows) for rows in of_specimens.values())
     units = {row["unknown"]: row["unit"] for row in parameters}
     return {"title": f"{title}: {n} specimens" if title else f"{n} specimens in {directory}", "finished": True, "problem": problem,
-            "reason": f"{n - len(failed)} of {n} specimens are fitted" + (
+            "reason": f"{n_told} of {n} peaks tell their specimen" if peaks else f"{n - len(failed)} of {n} specimens are fitted" + (
                 f"; the model does not fit {len(misfits)} of them" if misfits else ""),
             "warnings": [f"{name}: {why}" for name, why in failed.items()] + peaks.get("warnings", []),
             "specimens": of_specimens, "failed": failed,
             "with_page": [name for name in names if os.path.exists(os.path.join(directory, name, "report.html"))],
             "unknowns": [(name, units[name]) for name in unknowns],
             "forests": list(filter(None, (forest_of(unknown, parameters, pooled) for unknown in unknowns))),
-            "pooled": pooled, "differences": rows_of(read_table(os.path.join(directory, "differences.csv"))), "n_left_out": sum(int(row["left_out"]) for row in pooled if row["group"] == ALL),
+            "pooled": pooled, "differences": rows_of(read_table(os.path.join(directory, "differences.csv"))),
+            "n_left_out": sum(int(row["left_out"]) for row in pooled if row["group"] == ALL),
             "peaks": peaks, "curve": peaks and _plot_of_peaks(peaks, parameters),
             "has_groups": any(row["group"] for row in parameters),
             "origin": origin_of(about), "files": files_of(directory)}

@@ -25,6 +25,7 @@ EXAMPLE = os.path.join(source, "prm", "specimens", "peaks.prm")
 DISK = 2 / 3 * 50 * 2.5  # N mm for each unit of friction
 PHI = "subsection Interface\nsubsection Bonding\nset Bonding degree = <<0.5 in 0..1>>\nend\nend\n"
 MU = "subsection Interface\nset Friction coefficient unbroken = <<mu_ub: 0.6 in 0.2..3 log>>\nend\n"
+run_peak = peaks.run_peak  # the real one
 
 
 def check(is_so, message):
@@ -42,6 +43,11 @@ def write(name, text):
     with open(name, "w", encoding="utf-8") as file:
         file.write(text)
     return name
+
+
+def text_of(name):
+    with open(os.path.join(scratch, name), encoding="utf-8") as file:
+        return file.read()
 
 
 def fitted(scene, table, directory):
@@ -68,8 +74,7 @@ def check_example():
           beyond[0]["reason"].startswith("the model's peaks are from 33.33 to 62.48"), f"beyond the model: {beyond}")
     check([row["left_out"] for row in pooled] == ["0", "1", "1"], f"{pooled}")
     check_influence({one["entry"].rpartition(" / ")[2]: one for one in about["influence"]}, about["at"])
-    with open(os.path.join(scratch, "example", "report.html"), encoding="utf-8") as file:
-        page = file.read()
+    page = text_of("example/report.html")
     check(about["beyond"] == 1 and about["noise_is_known"] and about["is_monotone"] and not about["rises"] and about["of_cubic"] < 0.1, f"{about}")
     check("What a peak cannot tell" in page and "none of these: the curve has only their combination" in page and
           page.count("<figure") == 2, "the page")
@@ -105,6 +110,16 @@ def check_inversion():
         # at 10 degrees the disk sticks within r = mu p / (theta k) still, which takes off (r/R)^3 / 4
         check(abs(float(row["value"]) / mu - 1) < 3e-6, f"mu {mu}: {row}")
         check(abs(float(row["upper_95"]) - mu - 1.96 * sd / slope) < 1e-5, f"sd {sd} N mm: {row}")
+
+
+def check_unknown_error():
+    """Where one of the runs does not tell its error, nor do all of them."""
+    runs, peaks.run_peak = [], lambda task: runs.append(task) or (30.0 + len(runs), math.nan if len(runs) == 2 else 0.1, [])
+    try:
+        _, _, about, _ = fitted(EXAMPLE, write("one.csv", "specimen,peak [N mm]\nA,33\n"), "unknown")
+    finally:
+        peaks.run_peak = run_peak
+    check(len(runs) == 5 and about["of_model"] is None and "error of the model is not known" in text_of("unknown/report.html"), f"{about}")
 
 
 def check_pull():
@@ -229,6 +244,7 @@ def main():
     check_bad()
     check_inversion()
     check_example()
+    check_unknown_error()
     check_pull()
     check_coverage()
 

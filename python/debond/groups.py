@@ -4,8 +4,8 @@
                              [--diameter D --length L | --area A [--radius R]]
 
 TABLE is CSV or the first sheet of a workbook. Columns are called as in it, with or without the unit in brackets. --value may be
-repeated; --by "limb, kind" makes a group of each pair. pooling.py says what intervals are; with --animal values of one animal go
-together. Rows with a text in the column `mark`, as records.csv has them, and those without a value or a group are left out. With
+repeated; --by "limb, kind" makes a group of each pair. pooling.py says what intervals are; values of one animal go together, where a
+column `animal`, or what --animal says, names it. Rows with a text in the column `mark`, as records.csv has them, and those without a value or a group are left out. With
 sizes, numbers in mm and mm2 or columns, loads become strengths (reductions.py). DIR gets groups.csv, differences.csv, groups.json
 and report.html.
 """
@@ -85,6 +85,9 @@ def _compared(rows, words, unit):
     notes = [f"{words}: {sum(counts.values())} of {len(rows)} rows are left out, "
              + ", ".join(f"{n} {why}" for why, n in counts.items()) + "."] * bool(counts)
     notes += [f"{words}: {n_shared} animals are in more than one group."] * bool(n_shared)
+    alone = [group for group, n in collections.Counter(group for _, group, _ in used).items() if n == 1]
+    notes += [f"{words}: {', '.join(alone)} with one value alone: no interval, and no difference from the others."] * bool(alone)
+    notes += [f"{words}: some are above 0 and some below: do all have the same direction?"] * (min(row[0] for row in used) < 0 < max(row[0] for row in used))
     means, differences = ([{"unknown": words, "unit": unit, **row} for row in found] for found in compare_groups(*zip(*used)))
     return means, differences, [[words, group, value] for value, group, _ in used], notes
 
@@ -96,7 +99,7 @@ def main(filename, options) -> None:
         raise InputError(f"{table.place}: expected --value with one of the columns '{shortened(', '.join(table.names))}'")
     groups = [", ".join(filter(None, own)) for own in zip(*(_texts(table, name.strip(), "--by") for name in options["--by"].split(",")))]
     animals, marks = (_texts(table, name, "--animal") if name else [""] * len(groups)
-                      for name in (options["--animal"], "mark" * ("mark" in table.names)))
+                      for name in (options["--animal"] or "animal" * ("animal" in table.names), "mark" * ("mark" in table.names)))
     animals = [None if animal in ("", "none") else animal for animal in animals]
     for wanted in options["--value"]:
         words, unit, values, remarks = _values_of(table, wanted, options)
@@ -104,6 +107,8 @@ def main(filename, options) -> None:
             rows += more
         results[3].extend(remarks)
     means, differences, values, notes = results
+    results[3].append("Intervals of differences are " + ("of a mixed model: values of one animal go together." if any(animals) else
+                                                          "Welch's: each value is one of its own. Where animals repeat, say --animal."))
     for row in means:
         say(f"{row['unknown']}, {row['group']}: mean {in_words(row, 'mean', row['unit'], digits=4)[0]}, SD {short(row['sd'], 3) or 'not known'}, "
             f"n = {row['animals']}" + f" animals, {row['values']} values" * (row["values"] > row["animals"]))

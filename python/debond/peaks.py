@@ -247,6 +247,13 @@ def fit_peaks(specimens, entries, directory, executor, n_jobs, say):
     done = [one for one in specimens if one.name not in results]
     noise = {one.name: stated_noise(scenes[keys[one.name]].values)[0] for one in done}
     rows = rows_of_peaks(done, {one.name: functions[keys[one.name]] for one in done}, noise)
+    if beyond := [one.peak for one in done if rows[one.name]["at_bound"]]:
+        least, most = (end(end(one.peaks) for one in functions.values()) for end in (min, max))
+        warnings[f"{len(beyond)} of {len(done)} peaks, {min(beyond):.4g} to {max(beyond):.4g} {unit}, are beyond those of the model, {least:.4g} to "
+                 f"{most:.4g}: they tell nothing, and means without them are off to the other side. Are the sizes, what presses the faces, the "
+                 "other coefficients and the unit those of these tests?"] = ""
+    for text in warnings:
+        say(f"warning: {text}")
     results.update((name, {"fits": True, "rows": [{**row, "peak_unit": unit}]}) for name, row in rows.items())
     middle = numpy.median([row["value"] for row in rows.values()]) or 0.5 * (unknown.lower + unknown.upper)
     influence = _influence(_text_of(entries, unknowns, next(iter(functions)), middle), unknowns, middle, Runs(executor, n_jobs))
@@ -255,6 +262,6 @@ def fit_peaks(specimens, entries, directory, executor, n_jobs, say):
     return results, {
         "unknown": unknown.name, "unit": unknown.unit, "load_unit": unit, "at": float(middle), "warnings": list(warnings),
         "of_cubic": float(of_cubic), "of_model": float(of_model) if of_model == of_model else None,
-        "beyond": sum(row["at_bound"] for row in rows.values()), "noise_is_known": all(one.sd or noise[one.name] for one in done),
+        "beyond": len(beyond), "noise_is_known": all(one.sd or noise[one.name] for one in done),
         "is_monotone": all(one.is_monotone for one in functions), "influence": influence and influence[0],
         "rises": bool(influence and influence[1]), "values": values.tolist(), "peaks": [one.curve(values).tolist() for one in functions]}

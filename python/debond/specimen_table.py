@@ -28,6 +28,7 @@ from .unknowns import Unknowns
 from .variants import Variant, variants_of
 
 OWN = ("specimen", "curve", "group", "animal")
+_WORDS = {"probe": "specimen", "sample": "specimen", "gruppe": "group", "kurve": "curve", "tier": "animal"}
 ALL = "all"  # what the mean of all groups is called
 _NOT_HERE = ("Task", "Output / Directory", "Output / Reference curve")
 FILES = ("parameters.csv", "pooled.csv", "differences.csv", "specimens.json", "report.html")  # beside the directories of specimens
@@ -104,8 +105,8 @@ def _column_of(name, known, place):
     """What a column holds: one of OWN, "peak", "sd", or the full name of an entry."""
     plain, _, unit = name.partition("[")
     plain, unit = plain.strip(), unit.rstrip("] ")
-    if plain.lower() in OWN:
-        return plain.lower()
+    if (own := _WORDS.get(plain.lower(), plain.lower())) in OWN:
+        return own
     entry = " / ".join(part.strip() for part in plain.split("/"))
     if entry not in known and _load_in(name):
         return _load_in(name)

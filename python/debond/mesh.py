@@ -17,6 +17,7 @@ from .files import say, write_whole
 ENDS = {"top": (2, 1), "bottom": (2, 0), "left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1)}
 COLOURS = {"contact": (214, 96, 77), "held": (67, 147, 195), "free": (200, 200, 200)}
 TETRAHEDRON_10, TRIANGLE_6 = 11, 9  # of Gmsh
+CELLS, MOST = 100, 500000           # squares of the usual size on the contact faces; tetrahedra that are made
 
 SCENE = """# {title}. Meshes of {sources}, made by
 #   {command}
@@ -38,13 +39,17 @@ end
 subsection Interface
   # set Normal stiffness              = <<< MPa/mm
   set Tangential stiffness          = auto   # as the normal one
-  # A bond under no pressure holds with Law = adhesive only, see prm/cad/post_pulled.prm; a press fit has an Interference.
+  set Law                           = adhesive   # a bond holds without pressure; friction, for a press fit: Interference
   # set Friction coefficient broken   = <<<
   # set Friction coefficient unbroken = <<<
   # set Characteristic slip distance  = <<< mm
   set Transition factor             = 1
   subsection Bonding
     # set Bonding degree = <<< 0 to 1
+  end
+  subsection Adhesive
+    # set Strength        = <<< MPa (prm/cad/post_pulled.prm assumes 2)
+    # set Gap at strength = <<< mm  (0.01 there)
   end
 end
 
@@ -78,13 +83,26 @@ def _mm(number) -> str:
     return f"{number:.4g}"
 
 
-def _box(dimension, tag):
-    """Lowest and highest corner (2, 3) [mm]."""
-    return numpy.reshape(gmsh.model.getBoundingBox(dimension, tag), (2, 3))
-
-
 def _faces(solid):
     return {tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)}
+
+
+def _box(dimension, tag):
+    """Lowest and highest corner (2, 3) [mm]; of a spline, whose control points may be far away, of points on it."""
+    if dimension == 3:
+        boxes = numpy.array([_box(2, face) for face in _faces(tag)])
+        return numpy.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+    if gmsh.model.getType(2, tag) in ("Plane", "Cylinder", "Cone", "Sphere", "Torus"):
+        return numpy.reshape(gmsh.model.getBoundingBox(2, tag), (2, 3))
+    grid = numpy.meshgrid(*(numpy.linspace(*ends, 129) for ends in zip(*gmsh.model.getParametrizationBounds(2, tag))))
+    x = numpy.reshape(gmsh.model.getValue(2, tag, numpy.stack(grid, axis=-1).ravel()), (-1, 3))
+    return numpy.array([x.min(axis=0), x.max(axis=0)])
+
+
+def _is_upright(face):
+    """Whether the normal in its middle is horizontal, or nearly so."""
+    middle = numpy.mean(gmsh.model.getParametrizationBounds(2, face), axis=0)
+    return abs(gmsh.model.getNormal(face, middle)[2]) < 0.1
 
 
 def _number(option, text):
@@ -112,7 +130,7 @@ def _read(filename):
     size = max(_box(3, solids[0])[1] - _box(3, solids[0])[0])
     say(f"{filename}: {' x '.join(map(_mm, _box(3, solids[0])[1] - _box(3, solids[0])[0]))} mm, {_mm(gmsh.model.occ.getMass(3, solids[0]))} mm^3")
     if not 0.5 < size < 500:
-        say(f"warning: {filename} is {_mm(size)} mm long: is its unit that of the drawing?")
+        say(f"warning: {filename} is {_mm(size)} mm long: is its unit that of the drawing? --scale 25.4, 10 or 1000 make inches, cm or m of it")
     return solids[0]
 
 
@@ -168,13 +186,15 @@ def _chosen(word, at, own, option):
 
 
 def _held(solid, contact, words, option):
-    """Faces of a body at its ends, or for `sides` those that are neither top nor bottom and reach its ends in x or y; or those that
-    _chosen() finds."""
+    """Faces of a body at its ends, or for `sides` flat ones at its ends in x and y, where there are none
+    upright ones that reach these ends; or those that _chosen() finds."""
     own, (low, high) = _faces(solid) - contact, _box(3, solid)
-    slack = 1e-4 * max(high - low)
+    slack = 1e-3 * max(high - low)
     at = {word: {face for face in own if numpy.abs(_box(2, face)[:, d] - (low, high)[end][d]).max() < slack} for word, (d, end) in ENDS.items()}
-    reaching = lambda face: numpy.abs(_box(2, face)[:, :2] - numpy.array([low, high])[:, :2]).min() < slack
-    at["sides"] = {face for face in own - at["top"] - at["bottom"] if reaching(face)}
+    at["sides"] = set()
+    for word in ("left", "right", "front", "back"):
+        d, end = ENDS[word]
+        at["sides"] |= at[word] or {face for face in own if abs(_box(2, face)[end, d] - (low, high)[end][d]) < slack and _is_upright(face)}
     found = set()
     for word in words.split(","):
         chosen = _chosen(word, at, own, option)
@@ -329,8 +349,10 @@ def _picture(bodies):
 
 def _mesh(files, options):
     """Reads, joins, fills and writes; prints what has come of it."""
+    gmsh.option.setNumber("Geometry.OCCScaling", _number("--scale", options["--scale"] or 1))
     implant = _read(files[0])
     if len(files) > 1:
+        expect(not options["--bone"], "--bone", options["--bone"], "no block beside a STEP file of the bone")
         bone = _read(files[1])
     elif options["--bone"]:
         bone = _block(options["--bone"], implant, options["--depth"])
@@ -339,10 +361,16 @@ def _mesh(files, options):
     implant, bone, contact = _join(implant, bone)
     groups = {implant: {"contact": contact, "held": _held(implant, contact, options["--held"], "--held")},
               bone: {"contact": contact, "held": _held(bone, contact, options["--bone-held"], "--bone-held")}}
-    expect(bool(options["--out"]), "--out", options["--out"], "what the names of the files begin with")
-    size = _number("--size", options["--size"] or math.sqrt(sum(gmsh.model.occ.getMass(2, face) for face in contact) / 40))
+    expect(bool(options["--out"]) and os.path.isdir(os.path.dirname(options["--out"]) or "."), "--out", options["--out"],
+           "what the names of the files begin with, in a directory that is there")
+    size = _number("--size", options["--size"] or math.sqrt(sum(gmsh.model.occ.getMass(2, face) for face in contact) / CELLS))
     edge_size, name = _number("--edge-size", options["--edge-size"] or size), options["--out"]
     gmsh.model.removeEntities([(3, tag) for _, tag in gmsh.model.getEntities(3) if tag not in (implant, bone)], recursive=True)
+    # some five times as many as equal ones far away, and a layer of smaller ones
+    n = sum(gmsh.model.occ.getMass(3, solid) for solid in groups) / (0.12 * (3 * size) ** 3) + 25 * sum(
+        gmsh.model.occ.getMass(2, face) for face in contact) / size**2
+    if n > MOST:
+        raise InputError(f"mesh: cells of {_mm(size)} mm would be some {n:.2g} tetrahedra: expected a larger --size, less bone, or another --scale of the files")
     fields = _fields(contact)
     factor = _fill_untangled(implant, bone, fields, size, edge_size)
     if factor is None:
@@ -354,8 +382,12 @@ def _mesh(files, options):
         angle, cells = _smallest_angle(solid)
         areas = ", ".join(f"{kind} {_mm(sum(gmsh.model.occ.getMass(2, face) for face in faces))} mm^2" for kind, faces in groups[solid].items())
         say(f"{body}: {_mm(gmsh.model.occ.getMass(3, solid))} mm^3, {areas}; {cells} tetrahedra of {_mm(factor * size)} mm, smallest angle {angle:.0f} degrees")
+        if angle < 1:
+            say(f"warning: some cells of the {body} are flat: another --size, or bone that is not that thin, makes better ones")
         _write(f"{name}_{body}.msh", solid, groups[solid])
     unknowns = 12 * sum(len(gmsh.model.mesh.getElementsByType(TRIANGLE_6, face)[0]) for face in contact)  # 3 of each of 2 x 2 nodes
+    if unknowns > 60000:
+        raise InputError(f"mesh: the contact faces have some {unknowns} unknowns, which take 50 GB and more: expected a larger --size")
     if unknowns > 15000:
         say(f"warning: the contact faces have some {unknowns} unknowns (15000 take minutes and 3.5 GB, twice as many four times that): "
             "take a larger --size, or a rigid implant")

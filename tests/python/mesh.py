@@ -88,7 +88,8 @@ def main(program, post) -> int:
     expect(checked.returncode == 1 and "  set Young modulus =" in checked.stderr and "15000 to 23000" in checked.stderr, "the scene asks for what is missing")
     complete = [program, "post.prm", "--check", *(word for entry in (
         "Bone/Young modulus=1000", "Interface/Normal stiffness=600", "Interface/Friction coefficient broken=0.3",
-        "Interface/Friction coefficient unbroken=0.5", "Interface/Characteristic slip distance=0.02", "Interface/Bonding/Bonding degree=1") for word in ("--set", entry))]
+        "Interface/Friction coefficient unbroken=0.5", "Interface/Characteristic slip distance=0.02", "Interface/Bonding/Bonding degree=1", "Interface/Adhesive/Strength=2",
+        "Interface/Adhesive/Gap at strength=0.01") for word in ("--set", entry))]
     checked = subprocess.run(complete, capture_output=True, text=True, check=False)
     if checked.returncode:
         print(checked.stderr)
@@ -112,6 +113,16 @@ def main(program, post) -> int:
     text, code = say("ball.step", "--bone", "6x6x5", "--depth", "3", "--held", "above=0", "--out", "ball")
     ball = 2 * math.pi * 1.4 * (1.4 + math.sqrt(1.4**2 - 1))  # without the cap in the peg
     expect(code == 0 and near(number(r"implant:.* held (\S+) mm", text), ball + 2 * math.pi * (1 - math.sqrt(1.4**2 - 1))), "a round head held above a plane")
+    write("boss.step", lambda occ: occ.fuse([(3, occ.addBox(-3, -3, -6, 6, 6, 5))], [(3, occ.addBox(-2, -3, -1, 4, 6, 1))]))
+    text, code = say("peg.step", "boss.step", "--out", "boss")
+    expect(code == 0 and near(number(r"bone:.* held (\S+) mm", text), 36 + 4 * 30 + 2 * 4), "upright faces are sides, a shoulder is none")
+    write("spline.step", lambda occ: occ.dilate([(3, occ.addCylinder(0, 0, -3, 0, 0, 4, 1))], 0, 0, 0, 0.9999, 1, 1))
+    text, code = say("spline.step", "--bone", "6x6x5", "--depth", "3", "--held", "above=0", "--out", "spline")
+    expect(code == 0 and "2 x 2 x 4 mm" in text and near(number(r"bone:.* held (\S+) mm", text), 36 + 4 * 30), "a spline has the size of its points")
+    text, code = say("peg.step", "--bone", "60x60x50", "--depth", "30", "--scale", "10", "--out", "large")
+    expect(code == 0 and near(number(r"implant: (\S+) mm", text), 4000 * math.pi), "a file in another unit")
+    text, code = say("peg.step", "--bone", "6x6x5", "--depth", "3", "--size", "0.03", "--out", "fine")
+    expect(code == 1 and "expected a larger --size" in text, "cells that are too many")
     colour("peg.step", 1, "1.,0.,0.")
     text, code = say("peg.step", "--bone", "6x6x5", "--depth", "3", "--held", "colour=ff0000", "--out", "red")
     expect(code == 0 and near(number(r"implant:.* held (\S+) mm", text), math.pi), "the face of a colour held")
@@ -127,8 +138,9 @@ def main(program, post) -> int:
                        (("gone.step", "--bone", "8x8x4"), "a STEP file that is there"), (("no.step", "--bone", "8x8x4"), "cannot be read"),
                        ((post, "far.step"), "bodies in place"), ((post, "--bone", "8x8x4", "--held", "roof"), "top, bottom"),
                        ((post, "--bone", "8x8x4", "--held", "bottom"), "none that is flat"),
+                       ((post, "--bone", "8x8x4", "--out", "gone/post"), "a directory that is there"), ((post, "peg.step", "--bone", "8x8x4"), "no block beside"),
                        ((post, "--bone", "8x8x4", "--held", "above=x"), "a place along z"), ((post, "--bone", "8x8x4", "--held", "colour=00ff00"), "have no colour"), ((post, "--bone", "1x1x1"), "")):
-        text, code = say(*words, "--out", "wrong")
+        text, code = say("--out", "wrong", *words)
         expect(code == 1 and why in text and text.count("\n") <= 4, " ".join(map(os.path.basename, words)))
     return len(failed)
 

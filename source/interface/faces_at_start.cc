@@ -212,8 +212,8 @@ namespace Debond
                      contact;
     };
     // Faces of the implant that are no contact faces, against all of the
-    // bone's that they face: where one lies on the other within the error of
-    // facets its area counts.
+    // bone's: where one lies on the other within the error of facets its area
+    // counts.
     const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
                        bone   = boundary(Side::bone, FacesOfMesh::all);
     const std::vector<double> own    = errors_of_facets(others, false),
@@ -224,11 +224,7 @@ namespace Debond
     double              sum = 0.;
     for (const auto &face : surface_quadrature(others, dealii::QMidpoint<1>()))
       {
-        SurfaceGeometry geometry;
-        contract(face.basis, others.control_points(), geometry);
-        const Eigen::Vector3d normal =
-          MasterNormal(geometry, mesh[Side::implant]->outward_sign()).n;
-        const Projection at = project(master, face.X, nullptr, &normal);
+        const Projection at = project(master, face.X, nullptr);
         if (at.faces && std::abs(at.height) <=
                           own[face.element] + errors[bone.element_of(at.xi)] +
                             1e-6 * std::sqrt(face.JxW))

@@ -249,7 +249,7 @@ def fit_peaks(specimens, entries, directory, executor, n_jobs, say):
     rows = rows_of_peaks(done, {one.name: functions[keys[one.name]] for one in done}, noise)
     if beyond := [one.peak for one in done if rows[one.name]["at_bound"]]:
         least, most = (end(end(one.peaks) for one in functions.values()) for end in (min, max))
-        warnings[f"{len(beyond)} of {len(done)} peaks, {min(beyond):.4g} to {max(beyond):.4g} {unit}, are beyond those of the model, {least:.4g} to "
+        warnings[f"{len(beyond)} of {len(done)} peaks, {min(beyond):.4g}{f' to {max(beyond):.4g}' * (len(beyond) > 1)} {unit}, are beyond those of the model, {least:.4g} to "
                  f"{most:.4g}: they tell nothing, and means without them are off to the other side. Are the sizes, what presses the faces, the "
                  "other coefficients and the unit those of these tests?"] = ""
     for text in warnings:

@@ -62,7 +62,8 @@ def fitted(scene, table, directory):
 def check_example():
     """Against the closed form, row by row."""
     parameters, pooled, about, said = fitted(EXAMPLE, os.path.join(source, "prm", "specimens", "peaks.csv"), "example")
-    check(len(parameters) == 30 and said == ["5 runs"], f"30 peaks: {said}")
+    check(len(parameters) == 30 and said[0] == "5 runs" and len(said) == 2 and
+          said[1].startswith("warning: 1 of 30 peaks, 64 N mm, are beyond those of the model, 33.33 to 62.48"), f"30 peaks: {said}")
     for row in parameters:
         expected = (float(row["peak"]) / DISK - 0.4) / 0.35
         if row["at_bound"] == "false":  # the bond at the rim breaks first, which takes off 0.03 % of the peak at most

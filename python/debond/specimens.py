@@ -8,7 +8,7 @@
 
 specimen_table.py says what the table holds, pooling.py what a mean over specimens is. DIR gets parameters.csv, pooled.csv,
 differences.csv, specimens.json and report.html; DIR/NAME what a fit leaves. Those that are finished, with the same row, curve and template, are
-kept. The command ends with 2 if a specimen failed, and with 1 if the table or the template is wrong.
+kept. The command ends with 2 if a specimen failed or none tells an unknown, and with 1 if the table or the template is wrong.
 """
 
 import math

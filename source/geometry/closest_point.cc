@@ -564,12 +564,11 @@ namespace Debond
     assert(control_points.cols() == surface.n_control_points());
 
     DistanceProblem problem{surface, control_points, x};
-    if (surface.n_pieces() > 1)
-      {
-        problem.towards = towards;
-        if (guess != nullptr && towards == nullptr)
-          problem.piece = surface.piece(surface.element_of(*guess));
-      }
+    // of one patch every side is the near one
+    if (!surface.is_one_patch())
+      problem.towards = towards;
+    if (surface.n_pieces() > 1 && guess != nullptr && towards == nullptr)
+      problem.piece = surface.piece(surface.element_of(*guess));
     if (guess != nullptr && guess->allFinite())
       {
         const Vector2d     xi = surface.clamped(*guess);

@@ -17,19 +17,40 @@ namespace Debond
 {
   namespace
   {
+    /** How the elements of a surface stand for a smooth face. */
+    enum class Elements
+    {
+      of_shape,
+      plane_of_file,
+      curved_of_file
+    };
+
+    Elements
+    elements_of(const BodyParameters &body)
+    {
+      return body.shape != BodyShape::file ? Elements::of_shape :
+             body.mesh->order == 1         ? Elements::plane_of_file :
+                                             Elements::curved_of_file;
+    }
+
+
+
     /** Distance by which each of several elements may be off the surface that
      * all stand for [mm]. Plane facets of a circle bulge by 1 - cos(theta/2) of
      * its radius, and the middle of one is 2 cos(theta/2) sin^2(theta/2) above
      * the plane of its neighbour: three times that or more, up to theta = 60
      *  degrees, from where on there is an edge. Both directions add up.
      *  Elements that are curved themselves: a twentieth. Of files three times
-     *  as much, and what those beside are off, as several elements may be parts
-     *  of one triangle, plane or not. */
+     *  as much, and the most of the piece, as several elements may be parts of
+     *  one facet; whatever the degree of the functions, the nodes of the file
+     *  say whether they are plane. */
     std::vector<double>
-    errors_of_facets(const NurbsSurface &surface, const bool is_of_file)
+    errors_of_facets(const NurbsSurface &surface, const Elements kind)
     {
-      const double share =
-        (surface.degree() == 1 ? 3. : 60.) / (is_of_file ? 3. : 1.);
+      const double        share = kind == Elements::plane_of_file  ? 1. :
+                                  kind == Elements::curved_of_file ? 20. :
+                                  surface.degree() == 1            ? 3. :
+                                                                     60.;
       std::vector<double> result(surface.n_elements(), 0.);
       // one patch is the smooth surface itself
       if (surface.is_one_patch())
@@ -63,30 +84,84 @@ namespace Debond
               result[middle.element] += highest / share;
             }
         }
-      if (!is_of_file)
+      if (kind == Elements::of_shape)
         return result;
-      const std::vector<double> own = result;
+      std::vector<double> of_piece(surface.n_pieces(), 0.);
       for (const auto &middle : middles)
-        for (unsigned int side = 0; side < 4; ++side)
-          {
-            Eigen::Vector2d xi = middle.xi;
-            xi[side / 2] =
-              surface.element_bounds(middle.element)[side % 2][side / 2];
-            for (const auto &place : surface.places_beside(middle.element, xi))
-              result[middle.element] =
-                std::max(result[middle.element], own[place.element]);
-          }
+        of_piece[surface.piece(middle.element)] =
+          std::max(of_piece[surface.piece(middle.element)],
+                   result[middle.element]);
+      for (const auto &middle : middles)
+        result[middle.element] = of_piece[surface.piece(middle.element)];
       return result;
     }
+
+
+
+    /** Heights of a piece of the slave above the master, over its area. */
+    struct GapsOfPiece
+    {
+      double area = 0.;                     ///< that faces the master [mm^2]
+      double sum = 0., sum_of_squares = 0.; ///< [mm^3], [mm^4]
+      double facets = 0.; ///< that plane ones account for, at most [mm]
+      std::vector<std::pair<SlavePoint *, Eigen::Vector3d>> gaps{};
+
+      void
+      add(const double height, const double JxW, const double facets_here)
+      {
+        area += JxW;
+        sum += JxW * height;
+        sum_of_squares += JxW * height * height;
+        facets = std::max(facets, facets_here);
+      }
+
+      /** Whether the gaps are meant, and no work of facets: a hole drawn wider
+       *  than the implant, or narrower for a press fit, is so all over. Facets
+       *  that do not match cross each other, and where one of the bodies is
+       *  smooth their heights go from 0 to a sagitta, a quarter of what they
+       *  account for: the mean of a parabola is 2.2 standard deviations. */
+      bool
+      is_drawn(const double tolerance) const
+      {
+        const double mean   = sum / area,
+                     square = std::max(0., sum_of_squares / area - mean * mean);
+        return std::abs(mean) >
+               std::max({tolerance, 0.25 * facets, 3. * std::sqrt(square)});
+      }
+    };
   } // namespace
+
+
+
+  // Of files another part of the face may be nearer than that beside the point
+  // before, the far wall of a hole being one, unless this one is as near as
+  // points are to each other. A search over all of them for each point would
+  // take longer than all else where faces are many.
+  Projection
+  ContactInterface::project_at_rest(const MasterSurface   &master,
+                                    const SlavePoint      &point,
+                                    const Eigen::Vector2d *guess) const
+  {
+    const Eigen::Vector3d normal =
+      normal_of_slave(point, mesh[slave]->surface().control_points());
+    const Projection rest = project(master, point.X, guess, &normal);
+    const bool       is_near =
+      rest.faces && std::abs(rest.height) < std::sqrt(point.JxW);
+    return is_near || guess == nullptr ||
+               mesh[master_side()]->parameters().shape != BodyShape::file ?
+             rest :
+             project(master, point.X, nullptr, &normal);
+  }
 
 
 
   // Where the bodies are made, whatever the chuck and a press fit do at the
   // first time. A gap that facets account for is none: bonds would else hold,
   // and a press fit press, where meshes match only, and a twist that moves
-  // faces by less would meet nothing. Of shapes of our own it stays without
-  // these, as an implant may be made larger than the hole for it.
+  // faces by less would meet nothing. Bodies of files that are apart, or
+  // overlap, all over a piece are meant to. Of shapes of our own gaps stay
+  // without a bond or an interference, as an implant may be made larger than
+  // the hole for it.
   //
   // It is a vector G in the frame of the slave, taken off by the basis of the
   // point: origin o of the frame and ends of its axes follow the control
@@ -98,66 +173,61 @@ namespace Debond
     // Each slave point is projected on the master at rest. Its distance is a
     // facet's if it is no more than both elements can be off the smooth face;
     // overlap and range of the rest are for warnings.
-    const NurbsSurface &surface = mesh[master_side()]->surface();
-    if (surface.is_one_patch() && mesh[slave]->surface().is_one_patch())
+    const NurbsSurface &surface = mesh[master_side()]->surface(),
+                       &own     = mesh[slave]->surface();
+    if (surface.is_one_patch() && own.is_one_patch())
       return; // smooth
-    const auto is_of_file = [this](const Side side) {
-      return mesh[side]->parameters().shape == BodyShape::file;
-    };
-    const std::vector<double> errors =
-                                errors_of_facets(surface,
-                                                 is_of_file(master_side())),
-                              own = errors_of_facets(mesh[slave]->surface(),
-                                                     is_of_file(slave));
-    const MasterSurface                                   master{&surface,
+    const Elements kind        = elements_of(mesh[master_side()]->parameters()),
+                   kind_of_own = elements_of(mesh[slave]->parameters());
+    const bool is_of_file      = kind != Elements::of_shape ||
+                            kind_of_own != Elements::of_shape,
+               has_plane = kind == Elements::plane_of_file ||
+                           kind_of_own == Elements::plane_of_file;
+    const std::vector<double> errors  = errors_of_facets(surface, kind),
+                              its_own = errors_of_facets(own, kind_of_own);
+    const MasterSurface      master{&surface,
                                &surface.control_points(),
                                mesh[master_side()]->outward_sign()};
-    bool                                                  fits = true;
-    std::vector<std::pair<SlavePoint *, Eigen::Vector3d>> gaps;
+    std::vector<GapsOfPiece> pieces(own.n_pieces());
+    // what kernels of CAD and files of meshes round to
+    const double tolerance =
+      is_of_file ? 1e-5 * implant().characteristic_radius() : touch_tolerance;
     double lowest = std::numeric_limits<double>::max(), highest = -lowest;
+    bool   fits                  = true;
     const Eigen::Vector2d *guess = nullptr;
     for (SlavePoint &point : points)
       {
-        const Eigen::Vector3d normal =
-          normal_of_slave(point, mesh[slave]->surface().control_points());
-        Projection rest = project(master, point.X, guess, &normal);
-        // Of several pieces another one may be nearer than that of the point
-        // before, unless this one is as near as points are to each other. A
-        // search over all of them for each point would take longer than all
-        // else where faces are many.
-        if (surface.n_pieces() > 1 &&
-            !(rest.faces && std::abs(rest.height) < std::sqrt(point.JxW)))
-          rest = project(master, point.X, nullptr, &normal);
+        const Projection rest      = project_at_rest(master, point, guess);
         point.accepted.has_partner = rest.faces;
         if (!rest.faces)
           continue;
         point.accepted.xi = rest.xi;
         guess             = &point.accepted.xi;
         const double facets =
-                       own[point.element] + errors[surface.element_of(rest.xi)],
-                     gap = std::abs(rest.height);
+          its_own[point.element] + errors[surface.element_of(rest.xi)];
         at_start.facets  = std::max(at_start.facets, facets);
         at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
-        fits             = fits && gap <= facets + touch_tolerance;
-        lowest           = std::min(lowest, rest.height);
-        highest          = std::max(highest, rest.height);
+        fits = fits && std::abs(rest.height) <= facets + touch_tolerance;
+        GapsOfPiece &piece = pieces[own.piece(point.element)];
+        piece.add(rest.height, point.JxW, has_plane ? facets : 0.);
+        lowest  = std::min(lowest, rest.height);
+        highest = std::max(highest, rest.height);
         // G in the frame of the slave at rest [mm], with both faces where they
         // were made.
         const Eigen::Vector3d G = point.X - surface.point(rest.xi);
-        if (gap <= facets && G.norm() > touch_tolerance)
-          gaps.emplace_back(&point, G);
+        if (std::abs(rest.height) <= std::max(facets, tolerance) &&
+            G.norm() > touch_tolerance)
+          piece.gaps.emplace_back(&point, G);
+        else if (parameters.has_interference() &&
+                 std::abs(rest.height) > tolerance)
+          at_start.apart_area += point.JxW;
       }
-    // Facets of two meshes of one face cross each other: somewhere there is no
-    // gap. Bodies of files that are apart, or overlap, all over are meant to:
-    // an implant drawn thicker than its hole is a press fit.
-    const bool vanish = lowest <= 0.1 * highest && highest >= 0.1 * lowest,
-               takes_off =
-                 law.joint->pulls() || parameters.has_interference() ||
-                 (vanish &&
-                  (is_of_file(Side::bone) || is_of_file(Side::implant)));
-    for (unsigned int k = 0; takes_off && k < gaps.size(); ++k)
-      take_off(*gaps[k].first, gaps[k].second);
-    if (fits && !takes_off)
+    const bool bonds = law.joint->pulls() || parameters.has_interference();
+    for (const GapsOfPiece &piece : pieces)
+      if (is_of_file ? piece.area > 0. && !piece.is_drawn(tolerance) : bonds)
+        for (const auto &[point, G] : piece.gaps)
+          take_off(*point, G);
+    if (fits && !bonds && at_start.largest_gap == 0.)
       at_start.uneven = std::max(0., highest - lowest);
   }
 
@@ -216,16 +286,20 @@ namespace Debond
     // counts.
     const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
                        bone   = boundary(Side::bone, FacesOfMesh::all);
-    const std::vector<double> own    = errors_of_facets(others, false),
-                              errors = errors_of_facets(bone, false);
+    const std::vector<double> own =
+                                errors_of_facets(others, Elements::of_shape),
+                              errors =
+                                errors_of_facets(bone, Elements::of_shape);
     const MasterSurface master{&bone,
                                &bone.control_points(),
                                mesh[Side::bone]->outward_sign()};
     double              sum = 0.;
     for (const auto &face : surface_quadrature(others, dealii::QMidpoint<1>()))
       {
+        // the distance, as a face that goes on beside the bone's is level with
+        // it
         const Projection at = project(master, face.X, nullptr);
-        if (at.faces && std::abs(at.height) <=
+        if (at.faces && (face.X - bone.point(at.xi)).norm() <=
                           own[face.element] + errors[bone.element_of(at.xi)] +
                             1e-6 * std::sqrt(face.JxW))
           sum += face.JxW;
@@ -247,7 +321,11 @@ namespace Debond
              bonded :
              bonded + (pulls ? "; " : "") + "gaps between the faces of up to " +
                to_text(largest_gap, 2) + " mm are taken off (facets account " +
-               "for " + to_text(facets, 2) + " mm)";
+               "for " + to_text(facets, 2) + " mm)" +
+               (apart_area == 0. ? "" :
+                                   "; on " + to_text(apart_area, 4) +
+                                     " mm^2 faces are further apart, or "
+                                     "overlap more, and stay so");
   }
 
 
@@ -267,24 +345,23 @@ namespace Debond
     accepted_place = Place::of_implant(configuration);
     unprojected    = 0;
     // From one point to the next: a search over the whole master asks all of
-    // its elements.
+    // its elements. Of several patches from where find_facets() found it.
     const SlavePoint *neighbour = nullptr;
-    const bool has_pieces       = mesh[master_side()]->surface().n_pieces() > 1;
+    const bool        is_one    = mesh[master_side()]->surface().is_one_patch();
     for (SlavePoint &point : points)
       {
         // the guess of the search, xi of the point before
-        if (neighbour != nullptr)
+        if (is_one && neighbour != nullptr)
           point.accepted.xi = neighbour->accepted.xi;
-        // on several pieces the place where it was found, find_facets()
         point.trial.normal_gap =
           project_accepted(point,
                            configuration,
-                           has_pieces ? point.accepted.has_partner :
-                                        neighbour != nullptr)
+                           is_one ? neighbour != nullptr :
+                                    point.accepted.has_partner)
             .height;
         if (!shares.empty())
           shares[&point - points.data()].xi = point.accepted.xi;
-        if (point.accepted.has_partner && !has_pieces)
+        if (point.accepted.has_partner)
           neighbour = &point;
       }
     assign_bonding();

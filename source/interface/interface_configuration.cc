@@ -141,9 +141,10 @@ namespace Debond
                                     const InterfaceConfiguration &configuration)
   {
     // Places on the implant's face, its edge included, are projected on the
-    // bone. Of pieces the nearest may be none that faces it; a socket is
-    // covered by its implant nearly everywhere, so that all of it is kept.
-    if (bone.n_pieces() > 1)
+    // bone. Of pieces, and of a hole, the nearest side may be none that faces
+    // it; a socket is covered by its implant nearly everywhere, so that all of
+    // it is kept.
+    if (bone.n_pieces() > 1 || (!bone.is_one_patch() && !bone.is_flat()))
       return std::vector<bool>(bone.n_control_points(), true);
     std::vector<bool> under(bone.n_elements(), false);
     // dense enough to meet every element of the bone that the edge crosses

@@ -152,6 +152,32 @@ namespace Debond
 
 
 
+    // What they leave between the faces is taken off where they begin, and is
+    // another one where they have turned past each other.
+    void
+    check_facets(const CoupledSystem    &system,
+                 const InterfaceSummary &summary,
+                 const Note             &note)
+    {
+      const auto  &at_start = system.interface.faces_at_start();
+      const double gap = std::max(at_start.largest_gap, 0.25 * at_start.facets),
+                   cell = std::sqrt(system.interface.implant_area() /
+                                    system.implant.surface().n_elements()),
+                   way  = system.chuck.position().tail<3>().norm() * system.R;
+      if (way > 0.25 * cell && gap > 0.1 * summary.max_penetration)
+        note("facets",
+             Text() << "the implant has turned by " << to_text(way, 2)
+                    << " mm along plane facets, which leave gaps of some "
+                    << to_text(gap, 2)
+                    << " mm as they pass each other, and points penetrate by "
+                    << to_text(summary.max_penetration, 2)
+                    << " mm: pressures and torque come and go with them. "
+                       "Finer cells, or mesh files with nodes in the middle "
+                       "of edges, make less of that");
+    }
+
+
+
     void
     check_interface(const ModelParameters  &parameters,
                     const CoupledSystem    &system,
@@ -374,6 +400,7 @@ namespace Debond
       }
     check_interface(parameters, system, summary, note);
     check_dents(system, note);
+    check_facets(system, summary, note);
     beyond = Debond::beyond_strength(system.bone);
     check_strength(beyond, note);
     ask_for_strains(system, summary.max_traction);

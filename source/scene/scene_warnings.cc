@@ -97,6 +97,7 @@ namespace Debond
         judge_voxels(scene, *scene.bone.modulus->voxels(), note);
       for (const unsigned int d : {0, 1})
         note(!scene.implant.is_in_socket() &&
+               scene.bone.shape != BodyShape::file &&
                scene.implant.width(d) == scene.bone.width(d),
              "width",
              "the implant is as wide as the bone, " +

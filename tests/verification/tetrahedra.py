@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Writes the meshes of patch_of_tetrahedra.prm, chamfer.prm and post_of_facets.prm beside this file. Needs Gmsh (apt install python3-gmsh).
+"""Writes the meshes of patch_of_tetrahedra.prm, chamfer.prm, post_of_facets.prm and pin_of_facets.prm beside this file. Needs Gmsh (apt install python3-gmsh).
 
 Two boxes of 4 x 3 x 2 mm, one on the other, with tetrahedra of ten nodes that do not match. A bone with a hole of 3 x 2 mm, 1.5 mm
 deep, and a chamfer of 0.4 mm along its side at x = 1.5 mm; a box of 2.8 x 1.8 x 1 mm above it, whose side at x = 1.7 mm is over the
 chamfer: tetrahedra of four nodes. The post of prm/cad/post.step and its socket, whose rounded edges have flat facets of 9 and 7.5
-degrees, four and five of them from end to end: tetrahedra of four nodes."""
+degrees, four and five of them from end to end: tetrahedra of four nodes. Prisms of 24 sides around circles of radius 2 and 1.93 mm
+in a hole of 17 sides and radius 2 mm, 3 mm high: of four nodes, too."""
+import math
 import os
 
 import gmsh
@@ -55,6 +57,17 @@ def socket(occ):
     return left[0][1]
 
 
+def prism(occ, sides, radius):
+    corners = [occ.addPoint(radius * math.cos(2 * math.pi * k / sides), radius * math.sin(2 * math.pi * k / sides), -3) for k in range(sides)]
+    bottom = occ.addPlaneSurface([occ.addCurveLoop([occ.addLine(corners[k - 1], corners[k]) for k in range(sides)])])
+    return next(tag for dimension, tag in occ.extrude([(2, bottom)], 0, 0, 3) if dimension == 3)
+
+
+def bored_box(occ):
+    left, _ = occ.cut([(3, occ.addBox(-3, -3, -3, 6, 6, 3))], [(3, prism(occ, 17, 2))])
+    return left[0][1]
+
+
 def facets(around, along):
     """Prepares the rounded edges of the post: facets in a quarter of a circle, and from end to end."""
     for _, face in gmsh.model.getEntities(2):
@@ -77,3 +90,7 @@ write("post_of_facets_bone.msh", socket,
       {"contact": lambda centre, box: box[2] < -1e-3 and max(abs(box[0]), abs(box[3])) < 1.31 and max(abs(box[1]), abs(box[4])) < 0.71,
        "held": at(2, -2.2)}, 0.7, 1, lambda: facets(12, 4))
 write("post_of_facets_implant.msh", post, {"contact": lambda centre, box: centre[2] < -1e-3, "held": at(2, 0)}, 0.6, 1, lambda: facets(10, 5))
+WALL = {"contact": lambda centre, box: box[5] - box[2] > 1 and max(map(abs, box[:2] + box[3:5])) < 2.5}
+write("pin_of_facets_bone.msh", bored_box, {**WALL, "held": lambda centre, box: box[5] - box[2] > 1 and max(map(abs, box[:2] + box[3:5])) > 2.5}, 1.5, 1)
+write("pin_of_facets_implant.msh", lambda occ: prism(occ, 24, 2), {**WALL, "held": at(2, 0)}, 1.5, 1)
+write("pin_of_facets_thin.msh", lambda occ: prism(occ, 24, 1.93), {**WALL, "held": at(2, 0)}, 1.5, 1)

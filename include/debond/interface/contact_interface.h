@@ -117,6 +117,7 @@ namespace Debond
     unsigned int n_bonded    = 0; ///< points
     double bonded_area = 0, bonding_area = 0; ///< integral of phi_0; wanted
     double largest_gap = 0;                   ///< that is taken off [mm]
+    double apart_area  = 0; ///< of gaps that are not, if they should [mm^2]
     double uneven      = 0; ///< range of gaps that are not [mm]
 
     /** What bonds, in a law that pulls, and gaps that are taken off; empty if
@@ -500,6 +501,10 @@ namespace Debond
      *  fit. */
     void
     find_facets();
+    Projection
+    project_at_rest(const MasterSurface   &master,
+                    const SlavePoint      &point,
+                    const Eigen::Vector2d *guess) const;
     /** Gives points of the bone the phi_0 of the implant that they face. */
     void
     follow_pattern();

@@ -331,7 +331,8 @@ namespace Debond
     const Eigen::Matrix3d &Q      = configuration.side[master_side()].frame;
     for (const SlavePoint &point : points)
       if (point.trial.path_to_edge > 0. &&
-          point.trial.state.status == PointStatus::open)
+          point.trial.state.status == PointStatus::open &&
+          point.accepted.status != PointStatus::open)
         {
           SurfaceGeometry geometry;
           contract(point.trial.old_basis, *at_end.positions, geometry);

@@ -115,26 +115,36 @@ namespace Debond
 
 
 
-  // A point leaves a face all at once, and what it stands for little by little:
-  // steps are not made small to see it do so, unless it is much. The curve goes
-  // on without the jump, see take().
-  AdaptiveStepping::Forces
-  AdaptiveStepping::passed_over(const StepState &state) const
-  {
-    constexpr double most   = 5.; // tolerances
-    const Forces     let_go = answers(state.let_go, Forces::Zero());
-    return relative(let_go, state, true) <= most * tolerance ? let_go :
-                                                               Forces::Zero();
-  }
-
-
-
   AdaptiveStepping::Node
   AdaptiveStepping::node_of(const StepState &state) const
   {
     return {state.time,
-            answers(state.forces, state.position) + passed_over(state),
+            answers(state.forces, state.position),
             answers(state.force_rates, state.position_rates)};
+  }
+
+
+
+  // A point leaves a face all at once, and what it stands for little by little:
+  // steps are not made small to see it do so, unless it is much. The curve goes
+  // on without the jump, see take(): what it misses of where the rates lead, as
+  // far as points have let go of it. Points beside them take over the rest.
+  AdaptiveStepping::Forces
+  AdaptiveStepping::passed_over(const StepState &state, const Node &last) const
+  {
+    constexpr double most   = 5.; // tolerances
+    const Forces     let_go = answers(state.let_go, Forces::Zero()),
+                 missed     = current.answers - last.answers +
+                          0.5 * (last.time - current.time) *
+                            (current.rates + last.rates);
+    Forces jump = Forces::Zero();
+    for (unsigned int k = 0; k < 6; ++k)
+      if (missed[k] * let_go[k] > 0.)
+        jump[k] =
+          std::copysign(std::min(std::abs(missed[k]), std::abs(let_go[k])),
+                        let_go[k]);
+    return relative(jump, state, true) <= most * tolerance ? jump :
+                                                             Forces::Zero();
   }
 
 
@@ -160,10 +170,9 @@ namespace Debond
   //
   // with the time before at s = -r.
   AdaptiveStepping::Forces
-  AdaptiveStepping::difference(const StepState &state) const
+  AdaptiveStepping::difference(const Node &last) const
   {
-    const double h      = target_time() - current.time;
-    const Node   last   = node_of(state);
+    const double h      = last.time - current.time;
     const Forces change = last.answers - current.answers,
                  end    = h * last.rates - change;
     const Forces begin  = h * current.rates - change;
@@ -196,10 +205,9 @@ namespace Debond
   // The parabola may cross the curve in the middle; hence also at s = 1/5,
   // where the part of m is nearly largest.
   std::array<AdaptiveStepping::Forces, 2>
-  AdaptiveStepping::differences_of_parabola(const StepState &state) const
+  AdaptiveStepping::differences_of_parabola(const Node &last) const
   {
-    const double h      = target_time() - current.time;
-    const Node   last   = node_of(state);
+    const double h      = last.time - current.time;
     const Forces change = last.answers - current.answers,
                  d      = middle.answers - current.answers - 0.75 * change +
                      0.25 * h * last.rates,
@@ -268,15 +276,15 @@ namespace Debond
 
   // The largest error of what is drawn in the step over the tolerance.
   AdaptiveStepping::ErrorBetween
-  AdaptiveStepping::error_between(const StepState &state) const
+  AdaptiveStepping::error_between(const StepState &state,
+                                  const Node      &last) const
   {
-    const Node last     = node_of(state);
     const auto in_parts = [&](const Forces &difference) {
       return relative(difference, state, true) / tolerance;
     };
     if (!has_previous) // twice: the curve need not be a quartic
       {
-        const auto [there, before] = differences_of_parabola(state);
+        const auto [there, before] = differences_of_parabola(last);
         const double error = 2. * std::max(in_parts(there), in_parts(before));
         return {error, error};
       }
@@ -284,9 +292,9 @@ namespace Debond
     // middle, and shows in the rate. On a smooth curve with equal steps that
     // rate is off by h^3 F'''' / 2, and the cubic by h^4 F'''' / 384; half as
     // much is wanted.
-    const double h = target_time() - current.time;
+    const double h = last.time - current.time;
     const double smooth =
-      std::max(in_parts(difference(state)),
+      std::max(in_parts(difference(last)),
                in_parts(h / 96. * (last.rates - expected_rates(h))));
     // A cubic leaves a kink between two straight lines by h |m_1 - m_0| / 8,
     // and a jump by half of it and more. Where the error is much more than the
@@ -334,9 +342,11 @@ namespace Debond
       }
     drive_change =
       drive_change.cwiseMax((state.drive - first_drive).cwiseAbs());
-    const Node   last          = node_of(state);
-    const Forces jump          = passed_over(state);
-    const auto [smooth, drawn] = error_between(state);
+    Node         last = node_of(state);
+    const Forces jump =
+      has_previous ? passed_over(state, last) : Forces::Zero();
+    last.answers += jump;
+    const auto [smooth, drawn] = error_between(state, last);
     const double taken         = step.time - time;
     // to 0.8 of the tolerance: the error of the cubic goes with the fourth
     // power of the step, that of the state at its end with the square

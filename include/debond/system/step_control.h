@@ -267,10 +267,23 @@ namespace Debond
     target_time() const;
     double
     first_turn(double begin, double end) const;
+    /** An end of a step, with forces and their rates. */
+    struct Node
+    {
+      double time    = 0;
+      Forces answers = Forces::Zero(), rates = Forces::Zero();
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &time &answers &rates;
+      }
+    };
     Forces
-    difference(const StepState &state) const;
+    difference(const Node &last) const;
     std::array<Forces, 2>
-    differences_of_parabola(const StepState &state) const;
+    differences_of_parabola(const Node &last) const;
     Forces
     answers(const Forces &forces, const Forces &positions) const;
     double
@@ -285,28 +298,15 @@ namespace Debond
       double drawn;  ///< with the kink or jump that there may be
     };
     ErrorBetween
-    error_between(const StepState &state) const;
+    error_between(const StepState &state, const Node &last) const;
     double
     error_at_end(const StepState &state) const;
     void
     set_size(double new_size);
 
-    /** An end of a step, with forces and their rates. */
-    struct Node
-    {
-      double time    = 0;
-      Forces answers = Forces::Zero(), rates = Forces::Zero();
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &time &answers &rates;
-      }
-    };
     /** The part of the forces that points let go of, if it is little. */
     Forces
-    passed_over(const StepState &state) const;
+    passed_over(const StepState &state, const Node &last) const;
     Node
     node_of(const StepState &state) const;
     void

@@ -373,6 +373,13 @@ namespace Debond
                   interpolate(point.basis, accepted_positions[slave]),
                   of_rest,
                   result);
+      if (result.path_to_edge > 0.)
+        point.path_to_edge = result.path_to_edge;
+      else if (mode.leaves_for_good && is_back_at_edge(point))
+        {
+          leave_open(law, point.accepted, result, result.normal_gap);
+          result.path_to_edge = point.path_to_edge;
+        }
       if (result.state.status == PointStatus::open)
         return;
       add_force(point, result.traction, result.basis, sums);
@@ -389,6 +396,31 @@ namespace Debond
       });
     failed = found == points.end() ? nullptr : &*found;
     return failed == nullptr;
+  }
+
+
+
+  // Where a point lets go of the edge the bodies may spring back, so that it is
+  // on the face again: there is no equilibrium, with it or without. It stands
+  // for an area that leaves little by little, and as long as it comes back by a
+  // hundredth of that area's width it counts as gone.
+  bool
+  ContactInterface::is_back_at_edge(const SlavePoint &point) const
+  {
+    const double way = point.trial.slip_increment.norm();
+    return point.path_to_edge > 0. &&
+           point.path_to_edge - way < 0.01 * std::sqrt(point.JxW);
+  }
+
+
+
+  bool
+  ContactInterface::asks_who_leaves()
+  {
+    bool any = false;
+    for (SlavePoint &point : points)
+      any = std::exchange(point.path_to_edge, 0.) > 0. || any;
+    return any;
   }
 
 
@@ -564,6 +596,7 @@ namespace Debond
       works.add(shares[q], points[q], *law.joint, mode_now, Q);
     for (SlavePoint &point : points)
       {
+        point.path_to_edge = 0.;
         // beyond the edge, and still too far to reach it
         if (!point.accepted.has_partner && point.clearance > moved)
           {

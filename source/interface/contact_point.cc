@@ -320,6 +320,7 @@ namespace Debond
                        ContactPointResult      &result)
   {
     result.failed = result.negative_friction = false;
+    result.path_to_edge                      = 0.;
     if (!start.has_partner) // beyond the edge
       return leave_open(law, start, result);
 

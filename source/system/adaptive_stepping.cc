@@ -143,8 +143,10 @@ namespace Debond
         jump[k] =
           std::copysign(std::min(std::abs(missed[k]), std::abs(let_go[k])),
                         let_go[k]);
-    return relative(jump, state, true) <= most * tolerance ? jump :
-                                                             Forces::Zero();
+    // of what is not driven a share of the whole: single points are not
+    // symmetric
+    return relative(jump, state, true, 1.) <= most * tolerance ? jump :
+                                                                 Forces::Zero();
   }
 
 
@@ -222,7 +224,8 @@ namespace Debond
   double
   AdaptiveStepping::relative(const Forces    &difference,
                              const StepState &state,
-                             const bool       of_answers) const
+                             const bool       of_answers,
+                             const double     of_whole) const
   {
     // a rate that could not be found: as bad as can be
     if (!difference.allFinite())
@@ -241,7 +244,7 @@ namespace Debond
     double result = 0.;
     for (unsigned int k = 0; k < 6; ++k)
       {
-        const double floor    = drive_change[k] > 0. ? 1e-3 : 0.1,
+        const double floor    = drive_change[k] > 0. ? 1e-3 : of_whole,
                      force    = std::max(largest[k], floor * of_all * unit[k]),
                      place    = std::max(motion[k], floor * distance / unit[k]);
         const auto &component = chuck.component[k];

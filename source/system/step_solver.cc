@@ -28,6 +28,8 @@ namespace Debond
   // From the last state. The implant goes along with the chuck, and in the
   // first iteration closed points stick, so that it cannot cycle.
   const StepSolver::Attempt StepSolver::from_rest{false, false, false};
+  // What leaves over an edge may come back as it lets go, and leave again.
+  const StepSolver::Attempt StepSolver::over_edge{false, false, false, true};
   // A load that cannot be followed: the machine may have to jump, and then a
   // residual that grows for a while is no reason to shorten corrections.
   // Shortened ones may end where the residual is smallest, which need not be a
@@ -54,6 +56,7 @@ namespace Debond
     if (step.extrapolate)
       list.push_back(extrapolated);
     list.push_back(from_rest); // the prediction may be to blame
+    list.push_back(over_edge);
     // A chuck that is loaded or compliant may have no state of equilibrium near
     // the last one, and find one only where it jumps to.
     if (!system.chuck.unknowns().empty())
@@ -113,6 +116,8 @@ namespace Debond
     unsigned int iterations = 0;
     for (const Attempt &attempt : attempts(step))
       {
+        if (system.interface.asks_who_leaves() < attempt.leaves)
+          continue;
         result = make(attempt, step);
         iterations += result.iterations;
         if (result.is_acceptable() || result.hopeless)
@@ -183,6 +188,7 @@ namespace Debond
     options.residual_tolerance = load_steps.residual_tolerance;
     options.points.stick_first =
       !attempt.relaxes_machine && !attempt.extrapolates;
+    options.points.leaves_for_good = attempt.leaves;
     // For viscosity and rates, in the scene's unit of time.
     options.points.duration     = step.time - accepted_time;
     options.points.frictionless = !parameters.has_friction_after(accepted_time);

@@ -329,6 +329,10 @@ namespace Debond
     std::vector<PointStatus>
     statuses() const;
 
+    /** Whether points have left the master over its edge since this was asked,
+     *  or since commit(). */
+    bool
+    asks_who_leaves();
     /** Whether any point of the last evaluate() is open. */
     bool
     has_open_points() const;
@@ -508,6 +512,8 @@ namespace Debond
     /** Gives points of the bone the phi_0 of the implant that they face. */
     void
     follow_pattern();
+    bool
+    is_back_at_edge(const SlavePoint &point) const;
     void
     take_off(SlavePoint &point, const Eigen::Vector3d &G);
     Eigen::Vector3d

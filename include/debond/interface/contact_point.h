@@ -97,6 +97,9 @@ namespace Debond
   {
     double             phi_0 = 0;
     ContactPointResult trial;
+    /** Of a trial in which it has left the master over its edge: how far it
+     *  slid to there [mm]; else 0. */
+    double path_to_edge = 0;
     /** False for points of a bone that does not face the implant at the
      *  start: their area does not count. */
     bool faces_implant = true;

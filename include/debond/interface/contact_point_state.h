@@ -69,6 +69,9 @@ namespace Debond
     /** Closed points stick whatever their traction: a first Newton iteration
      *  with the stick tangent cannot cycle between stick and slip. */
     bool stick_first = false;
+    /** What has left the master over its edge stays open, also where without it
+     *  the bodies go back by a part of what it stands for. */
+    bool leaves_for_good = false;
     /** Gaps of this size are rounding of positions [mm]. Such a point counts as
      *  closed with stick_first (touching bodies under a loaded chuck would else
      *  be singular), and as open without (rounding must not wear the bond). */

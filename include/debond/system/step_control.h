@@ -289,7 +289,8 @@ namespace Debond
     double
     relative(const Forces    &difference,
              const StepState &state,
-             bool             of_answers) const;
+             bool             of_answers,
+             double           of_whole = 0.1) const;
     Forces
     expected_rates(double h) const;
     struct ErrorBetween

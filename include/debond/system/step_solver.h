@@ -88,8 +88,10 @@ namespace Debond
       bool jumps;
       /** Begins where the springs of the machine are relaxed. */
       bool relaxes_machine;
+      /** Points that leave a face over its edge do not come back. */
+      bool leaves = false;
     };
-    static const Attempt extrapolated, from_rest, jump, beyond;
+    static const Attempt extrapolated, from_rest, over_edge, jump, beyond;
     /** Attempts at a step, in the order in which they are made. */
     std::vector<Attempt>
     attempts(const Step &step) const;

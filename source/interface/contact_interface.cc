@@ -156,40 +156,6 @@ namespace Debond
 
 
 
-  // A point beyond the edge of the master that the step takes over it begins to
-  // interact at the place of the edge that was closest to it before the step,
-  // and what it moves along the surface from there on counts as slip. Starting
-  // where the step ends it would have no tangential gap, and friction would
-  // depend on the size of the steps.
-  //
-  // If it comes square to the edge this is where it crosses it, else within the
-  // length of the step. The place where it crosses would depend on the trial
-  // state, by derivatives of the surface that the tangent does not know.
-  ContactPointState
-  ContactInterface::entry(const SlavePoint             &point,
-                          const InterfaceConfiguration &configuration) const
-  {
-    ContactPointState     start     = point.accepted;
-    MasterSurface         surface   = master(configuration);
-    const ControlNet     &positions = configuration.side[slave].positions;
-    const Eigen::Vector3d normal    = normal_of_slave(point, positions);
-    const Projection      at =
-      project(surface, interpolate(point.basis, positions), &start.xi, &normal);
-    start.has_partner = at.faces;
-    if (start.has_partner)
-      {
-        start.xi          = at.xi;
-        surface.positions = &accepted_positions[master_side()];
-        start.xi          = project(surface,
-                           interpolate(point.basis, accepted_positions[slave]),
-                           &start.xi)
-                     .xi;
-      }
-    return start;
-  }
-
-
-
   // Every point of a surface is a convex combination of control points, so none
   // moves further than the control point that moves most. Of a triangle, whose
   // functions may be negative, by 5/3 of that at most, in its middle.
@@ -396,31 +362,6 @@ namespace Debond
       });
     failed = found == points.end() ? nullptr : &*found;
     return failed == nullptr;
-  }
-
-
-
-  // Where a point lets go of the edge the bodies may spring back, so that it is
-  // on the face again: there is no equilibrium, with it or without. It stands
-  // for an area that leaves little by little, and as long as it comes back by a
-  // hundredth of that area's width it counts as gone.
-  bool
-  ContactInterface::is_back_at_edge(const SlavePoint &point) const
-  {
-    const double way = point.trial.slip_increment.norm();
-    return point.path_to_edge > 0. &&
-           point.path_to_edge - way < 0.01 * std::sqrt(point.JxW);
-  }
-
-
-
-  bool
-  ContactInterface::asks_who_leaves()
-  {
-    bool any = false;
-    for (SlavePoint &point : points)
-      any = std::exchange(point.path_to_edge, 0.) > 0. || any;
-    return any;
   }
 
 

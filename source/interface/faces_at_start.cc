@@ -17,7 +17,9 @@ namespace Debond
 {
   namespace
   {
-    /** How the elements of a surface stand for a smooth face. */
+    /** How the elements of a surface stand for a smooth face. Those of a shape
+     *  lie on it with all of their control points, those of a file with the
+     *  nodes that it has. */
     enum class Elements
     {
       of_shape,

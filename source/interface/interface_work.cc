@@ -321,37 +321,6 @@ namespace Debond
 
 
 
-  // What they carried in the accepted state, in the directions that tangent
-  // and normal have taken with the master since.
-  ControlNet
-  ContactInterface::let_go(const InterfaceConfiguration &configuration) const
-  {
-    NodalSums              sums   = zero_sums(configuration);
-    const MasterSurface    at_end = master(configuration);
-    const Eigen::Matrix3d &Q      = configuration.side[master_side()].frame;
-    for (const SlavePoint &point : points)
-      if (point.trial.path_to_edge > 0. &&
-          point.trial.state.status == PointStatus::open &&
-          point.accepted.status != PointStatus::open)
-        {
-          SurfaceGeometry geometry;
-          contract(point.trial.old_basis, *at_end.positions, geometry);
-          const double pressure = law.joint
-                                    ->respond(point.begin(*law.joint, mode_now),
-                                              point.accepted.normal_gap,
-                                              0.)
-                                    .pressure;
-          add_force(point,
-                    Q * point.accepted_traction -
-                      pressure * MasterNormal(geometry, at_end.outward_sign).n,
-                    point.trial.old_basis,
-                    sums);
-        }
-    return sums[Side::implant];
-  }
-
-
-
   // A point that opens loses all that its tangential spring has stored, and
   // what friction takes of its motion before. Its normal spring gives back to
   // the chuck what it has stored, unless the point leaves over the edge while

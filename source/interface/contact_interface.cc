@@ -296,7 +296,8 @@ namespace Debond
   // What Newton's method asks for in each iteration: nodal forces, and the
   // derivatives at every point, for the surfaces as they are proposed. The
   // history of the points goes in and is not changed, so that an iteration owes
-  // nothing to the one before and a rejected step leaves nothing behind.
+  // nothing to the one before and a rejected step leaves nothing behind. Where
+  // points have to leave for good an iteration knows which have left before.
   //
   // Points do not know of each other, so they are updated in parallel. Sums are
   // formed in parts that do not depend on the number of threads, and added in
@@ -408,8 +409,9 @@ namespace Debond
     const auto update = [&](const unsigned int q, NodalSums &sums) {
       const SlavePoint        &point = points[q];
       const ContactPointState &begin = point.accepted, &end = point.trial.state;
-      if (!begin.has_partner || !end.has_partner ||
-          (!slides(begin.status) && !slides(end.status)))
+      // what has left over an edge is gone, whichever half it leaves in
+      if (point.trial.path_to_edge > 0. || !begin.has_partner ||
+          !end.has_partner || (!slides(begin.status) && !slides(end.status)))
         return;
       ContactPointResult half, whole;
       first_step.update(point,

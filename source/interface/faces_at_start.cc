@@ -20,20 +20,21 @@ namespace Debond
     /** How the elements of a surface stand for a smooth face. Those of a shape
      *  lie on it with all of their control points, those of a file with the
      *  nodes that it has. */
-    enum class Elements
+    struct Elements
     {
-      of_shape,
-      plane_of_file,
-      curved_of_file
-    };
+      bool are_of_file, are_plane;
 
-    Elements
-    elements_of(const BodyParameters &body)
-    {
-      return body.shape != BodyShape::file ? Elements::of_shape :
-             body.mesh->order == 1         ? Elements::plane_of_file :
-                                             Elements::curved_of_file;
-    }
+      explicit Elements(const BulkSpace &body)
+        : are_of_file(body.parameters().shape == BodyShape::file)
+        , are_plane(are_of_file ? body.parameters().mesh->order == 1 :
+                                  body.surface().degree() == 1)
+      {}
+      /** Of a shape. */
+      explicit Elements(const NurbsSurface &surface)
+        : are_of_file(false)
+        , are_plane(surface.degree() == 1)
+      {}
+    };
 
 
 
@@ -47,12 +48,10 @@ namespace Debond
      *  one facet; whatever the degree of the functions, the nodes of the file
      *  say whether they are plane. */
     std::vector<double>
-    errors_of_facets(const NurbsSurface &surface, const Elements kind)
+    errors_of_facets(const NurbsSurface &surface, const Elements &elements)
     {
-      const double        share = kind == Elements::plane_of_file  ? 1. :
-                                  kind == Elements::curved_of_file ? 20. :
-                                  surface.degree() == 1            ? 3. :
-                                                                     60.;
+      const double share =
+        (elements.are_plane ? 3. : 60.) / (elements.are_of_file ? 3. : 1.);
       std::vector<double> result(surface.n_elements(), 0.);
       // one patch is the smooth surface itself
       if (surface.is_one_patch())
@@ -86,7 +85,7 @@ namespace Debond
               result[middle.element] += highest / share;
             }
         }
-      if (kind == Elements::of_shape)
+      if (!elements.are_of_file)
         return result;
       std::vector<double> of_piece(surface.n_pieces(), 0.);
       for (const auto &middle : middles)
@@ -103,7 +102,8 @@ namespace Debond
     /** Heights of a piece of the slave above the master, over its area. */
     struct GapsOfPiece
     {
-      double area = 0.;                     ///< that faces the master [mm^2]
+      double area  = 0.; ///< that faces the master [mm^2]
+      double apart = 0.; ///< of gaps beyond what facets account for [mm^2]
       double sum = 0., sum_of_squares = 0.; ///< [mm^3], [mm^4]
       double facets = 0.; ///< that plane ones account for, at most [mm]
       std::vector<std::pair<SlavePoint *, Eigen::Vector3d>> gaps{};
@@ -179,12 +179,9 @@ namespace Debond
                        &own     = mesh[slave]->surface();
     if (surface.is_one_patch() && own.is_one_patch())
       return; // smooth
-    const Elements kind        = elements_of(mesh[master_side()]->parameters()),
-                   kind_of_own = elements_of(mesh[slave]->parameters());
-    const bool is_of_file      = kind != Elements::of_shape ||
-                            kind_of_own != Elements::of_shape,
-               has_plane = kind == Elements::plane_of_file ||
-                           kind_of_own == Elements::plane_of_file;
+    const Elements kind(*mesh[master_side()]), kind_of_own(*mesh[slave]);
+    const bool     is_of_file = kind.are_of_file || kind_of_own.are_of_file,
+               has_plane      = kind.are_plane || kind_of_own.are_plane;
     const std::vector<double> errors  = errors_of_facets(surface, kind),
                               its_own = errors_of_facets(own, kind_of_own);
     const MasterSurface      master{&surface,
@@ -207,7 +204,9 @@ namespace Debond
         guess             = &point.accepted.xi;
         const double facets =
           its_own[point.element] + errors[surface.element_of(rest.xi)];
-        at_start.facets  = std::max(at_start.facets, facets);
+        at_start.facets = std::max(at_start.facets, facets);
+        if (has_plane)
+          at_start.plane = at_start.facets;
         at_start.overlap = std::max(at_start.overlap, -rest.height - facets);
         fits = fits && std::abs(rest.height) <= facets + touch_tolerance;
         GapsOfPiece &piece = pieces[own.piece(point.element)];
@@ -220,15 +219,19 @@ namespace Debond
         if (std::abs(rest.height) <= std::max(facets, tolerance) &&
             G.norm() > touch_tolerance)
           piece.gaps.emplace_back(&point, G);
-        else if (parameters.has_interference() &&
-                 std::abs(rest.height) > tolerance)
-          at_start.apart_area += point.JxW;
+        else if (std::abs(rest.height) > tolerance)
+          piece.apart += point.JxW;
       }
     const bool bonds = law.joint->pulls() || parameters.has_interference();
     for (const GapsOfPiece &piece : pieces)
-      if (is_of_file ? piece.area > 0. && !piece.is_drawn(tolerance) : bonds)
-        for (const auto &[point, G] : piece.gaps)
-          take_off(*point, G);
+      {
+        const bool stays =
+          is_of_file ? piece.area > 0. && piece.is_drawn(tolerance) : !bonds;
+        if (is_of_file && parameters.has_interference())
+          at_start.apart_area += stays ? piece.area : piece.apart;
+        for (unsigned int k = 0; !stays && k < piece.gaps.size(); ++k)
+          take_off(*piece.gaps[k].first, piece.gaps[k].second);
+      }
     if (fits && !bonds && at_start.largest_gap == 0.)
       at_start.uneven = std::max(0., highest - lowest);
   }
@@ -288,10 +291,8 @@ namespace Debond
     // counts.
     const NurbsSurface others = boundary(Side::implant, FacesOfMesh::others),
                        bone   = boundary(Side::bone, FacesOfMesh::all);
-    const std::vector<double> own =
-                                errors_of_facets(others, Elements::of_shape),
-                              errors =
-                                errors_of_facets(bone, Elements::of_shape);
+    const std::vector<double> own = errors_of_facets(others, Elements(others)),
+                              errors = errors_of_facets(bone, Elements(bone));
     const MasterSurface master{&bone,
                                &bone.control_points(),
                                mesh[Side::bone]->outward_sign()};
@@ -314,20 +315,22 @@ namespace Debond
   std::string
   FacesAtStart::in_words(const bool pulls) const
   {
-    const std::string bonded =
-      pulls ? "bonded in tension: " + std::to_string(n_bonded) + " points, " +
-                to_text(bonded_area, 4) + " of " + to_text(bonding_area, 4) +
-                " mm^2" :
-              "";
-    return largest_gap == 0. ?
-             bonded :
-             bonded + (pulls ? "; " : "") + "gaps between the faces of up to " +
-               to_text(largest_gap, 2) + " mm are taken off (facets account " +
-               "for " + to_text(facets, 2) + " mm)" +
-               (apart_area == 0. ? "" :
-                                   "; on " + to_text(apart_area, 4) +
-                                     " mm^2 faces are further apart, or "
-                                     "overlap more, and stay so");
+    std::string text = pulls ?
+                         "bonded in tension: " + std::to_string(n_bonded) +
+                           " points, " + to_text(bonded_area, 4) + " of " +
+                           to_text(bonding_area, 4) + " mm^2" :
+                         "";
+    const auto  add  = [&text](const std::string &more) {
+      text += (text.empty() ? "" : "; ") + more;
+    };
+    if (largest_gap > 0.)
+      add("gaps between the faces of up to " + to_text(largest_gap, 2) +
+          " mm are taken off (facets account for " + to_text(facets, 2) +
+          " mm)");
+    if (apart_area > 0.)
+      add("on " + to_text(apart_area, 4) +
+          " mm^2 the faces are drawn apart, or overlap, and stay so");
+    return text;
   }
 
 

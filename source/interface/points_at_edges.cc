@@ -53,21 +53,25 @@ namespace Debond
   bool
   ContactInterface::is_back_at_edge(const SlavePoint &point) const
   {
-    const double way = point.trial.slip_increment.norm();
-    return point.path_to_edge > 0. &&
-           point.path_to_edge - way < 0.01 * std::sqrt(point.JxW);
+    const ContactPointResult &trial = point.trial;
+    const double missing = point.path_to_edge - trial.slip_increment.norm();
+    return point.path_to_edge > 0. && !trial.failed &&
+           trial.state.status != PointStatus::open &&
+           std::abs(missing) < 0.01 * std::sqrt(point.JxW);
   }
 
 
 
   // Asked before each attempt at a step: one that keeps them away is made only
-  // after others in which points have left.
+  // after others that ended with points on the face that had left it.
   bool
-  ContactInterface::asks_who_leaves()
+  ContactInterface::has_come_back()
   {
     bool any = false;
     for (SlavePoint &point : points)
-      any = std::exchange(point.path_to_edge, 0.) > 0. || any;
+      any = (std::exchange(point.path_to_edge, 0.) > 0. &&
+             point.trial.state.status != PointStatus::open) ||
+            any;
     return any;
   }
 

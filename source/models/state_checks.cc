@@ -160,11 +160,16 @@ namespace Debond
                  const Note             &note)
     {
       const auto  &at_start = system.interface.faces_at_start();
-      const double gap = std::max(at_start.largest_gap, 0.25 * at_start.facets),
-                   cell = std::sqrt(system.interface.implant_area() /
+      const double gap      = 0.25 * at_start.plane,
+                   cell     = std::sqrt(system.interface.implant_area() /
                                     system.implant.surface().n_elements()),
-                   way  = system.chuck.position().tail<3>().norm() * system.R;
-      if (way > 0.25 * cell && gap > 0.1 * summary.max_penetration)
+                   way = system.chuck.position().tail<3>().norm() * system.R;
+      // on a smooth master each facet keeps its gap
+      const bool passes = !system.body[other(system.interface.slave_side())]
+                             ->surface()
+                             .is_one_patch() &&
+                          summary.max_penetration > 0.;
+      if (passes && way > 0.25 * cell && gap > 0.1 * summary.max_penetration)
         note("facets",
              Text() << "the implant has turned by " << to_text(way, 2)
                     << " mm along plane facets, which leave gaps of some "

@@ -116,7 +116,7 @@ namespace Debond
     unsigned int iterations = 0;
     for (const Attempt &attempt : attempts(step))
       {
-        if (system.interface.asks_who_leaves() < attempt.leaves)
+        if (system.interface.has_come_back() < attempt.leaves)
           continue;
         result = make(attempt, step);
         iterations += result.iterations;

@@ -112,6 +112,7 @@ namespace Debond
   struct FacesAtStart
   {
     double       facets  = 0; ///< gaps that facets account for, at most [mm]
+    double       plane   = 0; ///< the same, of plane facets [mm]
     double       overlap = 0; ///< beyond that, at most [mm]
     double       facing_area = 0; ///< of the implant, with the chuck [mm^2]
     unsigned int n_bonded    = 0; ///< points
@@ -329,10 +330,10 @@ namespace Debond
     std::vector<PointStatus>
     statuses() const;
 
-    /** Whether points have left the master over its edge since this was asked,
-     *  or since commit(). */
+    /** Whether points that have left the master over its edge, since this was
+     *  asked or since commit(), were back on it in the last evaluate(). */
     bool
-    asks_who_leaves();
+    has_come_back();
     /** Whether any point of the last evaluate() is open. */
     bool
     has_open_points() const;

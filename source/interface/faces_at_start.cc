@@ -335,6 +335,28 @@ namespace Debond
 
 
 
+  // With the thickness that the implant has at the first time. Where two faces
+  // meet at an edge, walls of a post get longer, too: from the places before it
+  // that would be shear.
+  void
+  ContactInterface::begin_thicker(const InterfaceConfiguration &configuration)
+  {
+    const ControlNet &positions = configuration.side[slave].positions;
+    for (SlavePoint &point : points)
+      if (point.accepted.has_partner)
+        {
+          const Eigen::Vector3d normal = normal_of_slave(point, positions);
+          const Projection      at     = project(master(configuration),
+                                        interpolate(point.basis, positions),
+                                        &point.accepted.xi,
+                                        &normal);
+          if (at.faces)
+            point.accepted.xi = at.xi;
+        }
+  }
+
+
+
   // "At initial contact the interacting point is the closest projection point"
   // (paper, after Eq. 28).
   //

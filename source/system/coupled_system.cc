@@ -193,6 +193,15 @@ namespace Debond
     {
       const TimedSection t(timer, "contact");
       interface.initialise(configuration);
+      if (implant.mesh().parameters().shape == BodyShape::file &&
+          !press_fit.is_none())
+        {
+          press_fit.set(time);
+          update_configuration();
+          interface.begin_thicker(configuration);
+          press_fit.rollback();
+          update_configuration();
+        }
     }
     const TimedSection t(timer, "condensation");
     bone.set_contact_control_points(bone_control_points_under_implant(

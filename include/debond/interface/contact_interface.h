@@ -243,6 +243,9 @@ namespace Debond
     /** Faces every point with its closest point on the master. */
     void
     initialise(const InterfaceConfiguration &configuration);
+    /** After that, the places where they interact are those of a press fit. */
+    void
+    begin_thicker(const InterfaceConfiguration &configuration);
 
     /** Updates all points. Returns false if a point found no solution. */
     bool

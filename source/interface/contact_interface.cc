@@ -124,6 +124,22 @@ namespace Debond
 
 
 
+  // Where a point lies over the master, on a part of it that faces the point.
+  Projection
+  ContactInterface::facing(const SlavePoint             &point,
+                           const InterfaceConfiguration &configuration,
+                           const Eigen::Vector2d        *guess) const
+  {
+    const ControlNet     &positions = configuration.side[slave].positions;
+    const Eigen::Vector3d normal    = normal_of_slave(point, positions);
+    return project(master(configuration),
+                   interpolate(point.basis, positions),
+                   guess,
+                   &normal);
+  }
+
+
+
   // The interacting point xi_hat^n of a point that is open: its closest point
   // on the master, so that a point that closes during the next step starts from
   // there, and what it moves along the surface in that step counts as slip.
@@ -137,13 +153,8 @@ namespace Debond
     // the whole master else. A point beyond the edge has no partner;
     // it keeps its clearance instead, the distance [mm] that the surfaces may
     // move before it has to be asked again.
-    const ControlNet     &positions = configuration.side[slave].positions;
-    const Eigen::Vector3d normal    = normal_of_slave(point, positions);
-    const Projection      projection =
-      project(master(configuration),
-              interpolate(point.basis, positions),
-              use_guess ? &point.accepted.xi : nullptr,
-              &normal);
+    const Projection projection =
+      facing(point, configuration, use_guess ? &point.accepted.xi : nullptr);
     point.accepted.xi          = projection.xi;
     point.accepted.has_partner = projection.faces;
     point.clearance            = projection.clearance;

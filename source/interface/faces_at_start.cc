@@ -341,18 +341,12 @@ namespace Debond
   void
   ContactInterface::begin_thicker(const InterfaceConfiguration &configuration)
   {
-    const ControlNet &positions = configuration.side[slave].positions;
     for (SlavePoint &point : points)
       if (point.accepted.has_partner)
-        {
-          const Eigen::Vector3d normal = normal_of_slave(point, positions);
-          const Projection      at     = project(master(configuration),
-                                        interpolate(point.basis, positions),
-                                        &point.accepted.xi,
-                                        &normal);
-          if (at.faces)
-            point.accepted.xi = at.xi;
-        }
+        if (const Projection at =
+              facing(point, configuration, &point.accepted.xi);
+            at.faces)
+          point.accepted.xi = at.xi;
   }
 
 

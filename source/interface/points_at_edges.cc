@@ -25,13 +25,10 @@ namespace Debond
   ContactInterface::entry(const SlavePoint             &point,
                           const InterfaceConfiguration &configuration) const
   {
-    ContactPointState     start     = point.accepted;
-    MasterSurface         surface   = master(configuration);
-    const ControlNet     &positions = configuration.side[slave].positions;
-    const Eigen::Vector3d normal    = normal_of_slave(point, positions);
-    const Projection      at =
-      project(surface, interpolate(point.basis, positions), &start.xi, &normal);
-    start.has_partner = at.faces;
+    ContactPointState start   = point.accepted;
+    MasterSurface     surface = master(configuration);
+    const Projection  at      = facing(point, configuration, &start.xi);
+    start.has_partner         = at.faces;
     if (start.has_partner)
       {
         start.xi          = at.xi;

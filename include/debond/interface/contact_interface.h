@@ -523,6 +523,10 @@ namespace Debond
     Eigen::Vector3d
     normal_of_slave(const SlavePoint &point, const ControlNet &positions) const;
     Projection
+    facing(const SlavePoint             &point,
+           const InterfaceConfiguration &configuration,
+           const Eigen::Vector2d        *guess) const;
+    Projection
     project_accepted(SlavePoint                   &point,
                      const InterfaceConfiguration &configuration,
                      bool                          use_guess);
